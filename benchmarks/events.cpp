@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "parts.h"
-#include "subimpact/study/judgement.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact::benchmarks {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "integrate/sundials.h"
-#include "model/cell_mesh.h"
+#include "model/mesh/cell_mesh.h"
 #include "parts.h"
 
 namespace subimpact::benchmarks {

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "parts.h"
-#include "subimpact/study/event_errors.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 namespace subimpact::benchmarks {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "parts.h"
-#include "subimpact/study/event_errors.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 namespace subimpact::benchmarks {
 namespace {

@@ -1,15 +1,52 @@
+# Half of the time to compile goes into the same headers of other libraries: they are precompiled, once
+# for all hot floors and once for the others. Not with ccache, which would keep no objects made with them.
+if(CMAKE_CXX_COMPILER_LAUNCHER OR SUBIMPACT_SANITIZE OR SUBIMPACT_FUZZ)
+  set(SUBIMPACT_PRECOMPILE OFF)
+else()
+  set(SUBIMPACT_PRECOMPILE ON)
+endif()
+set(SUBIMPACT_HOT_HEADERS <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <ranges>
+                          <span> <string> <vector> <Eigen/Core>)
+set(SUBIMPACT_OTHER_HEADERS ${SUBIMPACT_HOT_HEADERS} <filesystem> <fstream> <regex>
+                           <fmt/format.h> <nlohmann/json.hpp>)
+
+function(subimpact_precompile target hot)
+  if(NOT SUBIMPACT_PRECOMPILE)
+    return()
+  endif()
+  set(owner subimpact_other_headers)
+  set(headers ${SUBIMPACT_OTHER_HEADERS})
+  if(hot)
+    set(owner subimpact_hot_headers)
+    set(headers ${SUBIMPACT_HOT_HEADERS})
+  endif()
+  if(NOT TARGET ${owner})
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/headers/${owner}.cpp CONTENT "")
+    add_library(${owner} OBJECT ${PROJECT_BINARY_DIR}/headers/${owner}.cpp)
+    set_target_properties(${owner} PROPERTIES SUBIMPACT_HOT ${hot})
+    target_link_libraries(${owner} PRIVATE Eigen3::Eigen subimpact_flags)
+    if(NOT hot)
+      target_link_libraries(${owner} PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
+    endif()
+    target_compile_definitions(${owner} PRIVATE Eigen=subimpact_eigen)
+    target_precompile_headers(${owner} PRIVATE ${headers})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${owner})
+endfunction()
+
 # One library target a source folder, with includes that can only point one way.
 #
-#   subimpact_library(<folder> [STUDIES] [USES <folder>...] [LINK <target>...])
+#   subimpact_library(<folder> [STUDIES] [HOT] [USES <folder>...] [LINK <target>...])
 #
-# It is part of the library of studies with STUDIES, else of the core (SubimpactPackage.cmake). Its
-# sources are all of src/<folder>. src/<folder> (private headers, included as "<folder>/x.h") and
-# include/subimpact/<folder> (public headers, included as "subimpact/<folder>/x.h") are visible to the targets that name <folder> under
-# USES, directly or through others, and to nobody else: each folder is reached through a link of its
-# own in the build tree, so an include that goes against the floors does not compile. A folder
-# without sources holds headers only.
+# It is part of the library of studies with STUDIES, else of the core (SubimpactPackage.cmake). HOT:
+# runs spend their time in its loops, so that it is compiled with -O3. Its sources are all of
+# src/<folder>. src/<folder> (private headers, included as "<folder>/x.h") and
+# include/subimpact/<folder> (public headers, included as "subimpact/<folder>/x.h") are visible to the
+# targets that name <folder> under USES, directly or through others, and to nobody else: each folder is
+# reached through a link of its own in the build tree, so an include that goes against the floors does
+# not compile. A folder without sources holds headers only.
 function(subimpact_library folder)
-  cmake_parse_arguments(ARG "STUDIES" "" "USES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "STUDIES;HOT" "" "USES;LINK" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
   set(target subimpact_${folder})
   set(stage ${PROJECT_BINARY_DIR}/stage/${folder})
@@ -25,6 +62,8 @@ function(subimpact_library folder)
     add_library(${target} STATIC ${sources})
     target_include_directories(${target} PUBLIC ${stage})
     target_link_libraries(${target} PUBLIC ${ARG_USES} ${ARG_LINK} PRIVATE subimpact_flags)
+    set_target_properties(${target} PROPERTIES SUBIMPACT_HOT ${ARG_HOT})
+    subimpact_precompile(${target} ${ARG_HOT})
     set(library core)
     if(ARG_STUDIES)
       set(library studies)

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "subimpact/case/simulate.h"
-#include "subimpact/model/matrix_mesh.h"
+#include "subimpact/model/mesh/matrix_mesh.h"
 
 // `bars`: even, so that a mass is struck.
 std::shared_ptr<const subimpact::BeamMesh> bar_chain(const subimpact::Beam& beam,

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "byte_source.h"
-#include "report/figure_script.h"
+#include "report/figures/figure_script.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/report/pages.h"
 #include "targets.h"

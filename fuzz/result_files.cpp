@@ -1,9 +1,9 @@
 #include <sstream>
 #include <string>
 
-#include "io/csv_reader.h"
-#include "io/run_record.h"
-#include "io/run_tables.h"
+#include "io/records/csv_reader.h"
+#include "io/records/run_record.h"
+#include "io/records/run_tables.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/report/text.h"
 #include "targets.h"

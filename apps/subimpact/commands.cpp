@@ -8,8 +8,8 @@
 #include <string_view>
 #include <thread>
 
-#include "case/slips.h"
-#include "case/units.h"
+#include "case/keys/slips.h"
+#include "case/keys/units.h"
 #include "io/printable.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
@@ -79,6 +79,19 @@ void CaseOptions::add_within_to(CLI::App& command) {
                   "accuracy.event_times");
 }
 
+void CaseOptions::add_opening_to(CLI::App& command) {
+  const auto is_length = [](const std::string& given) {
+    const std::optional<double> value = value_in("m", given);
+    return value && *value >= 0.0 && std::isfinite(*value);
+  };
+  command
+      .add_option("--opening", opening,
+                  "Contacts between which striker and beam part by less than this length, with its "
+                  "unit, are joined: 1um. Instead of output.opening")
+      ->check(
+          refused_unless(is_length, "a length, 0 or above, with its unit, such as 1um or 0.01mm"));
+}
+
 void CaseOptions::add_case_to(CLI::App& command) {
   command.add_option("CASE", file, "Case file (TOML); `subimpact keys` lists its keys")->required();
   command
@@ -96,6 +109,10 @@ LoadedCase CaseOptions::load(const std::vector<Override>& by_options) const {
   if (!within.empty()) {
     overrides.push_back({"accuracy.event_times", fmt::format("{}", seconds_of(within).value()),
                          "--within " + within});
+  }
+  if (!opening.empty()) {
+    overrides.push_back({"output.opening", fmt::format("{}", value_in("m", opening).value()),
+                         "--opening " + opening});
   }
   overrides.insert(overrides.end(), by_options.begin(), by_options.end());
   LoadedCase loaded = read_case_file(file, overrides);

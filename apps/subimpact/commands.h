@@ -16,7 +16,7 @@
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/output_directory.h"
 #include "subimpact/io/read_results.h"
-#include "subimpact/study/judgement.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact::app {
 
@@ -47,10 +47,12 @@ struct CaseOptions {
   std::string method;
   std::vector<std::string> settings;
   std::string within;       // empty, or a time with its unit
+  std::string opening;      // empty, or a length with its unit
   bool may_repeat = false;  // whether the command takes repeat.strikes
 
   void add_to(CLI::App& command);
   void add_within_to(CLI::App& command);
+  void add_opening_to(CLI::App& command);
   /// Without --method, for commands that run methods of their own choice.
   void add_case_to(CLI::App& command);
   /// With `by_options` after the settings of --set and --method. Throws CaseFileError.
@@ -168,7 +170,7 @@ std::pair<CLI::App&, Options&> add_command(CLI::App& program, int& status, const
 }
 
 using AddCommands = void(CLI::App& program, int& status);
-AddCommands add_run, add_compare, add_work_precision, add_stability, add_plan, add_sensitivity,
-    add_explain, add_new, add_plot_and_report, add_listings, add_manual;
+AddCommands add_run, add_compare, add_work_precision, add_stability, add_sensitivity, add_explain,
+    add_new, add_plot_and_report, add_listings, add_manual;
 
 }  // namespace subimpact::app

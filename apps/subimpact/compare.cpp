@@ -20,6 +20,14 @@ int status_of(const auto& runs) {
   return all_completed ? done : failed;
 }
 
+std::string heading(const Case& input) {
+  const double opening = input.output.opening;
+  return title_of(input) +
+         (opening > 0.0
+              ? fmt::format("; contacts parted by less than {:.4g} um joined", 1e6 * opening)
+              : "");
+}
+
 int run_models(const CompareOptions& options) {
   const bool of_laws = !options.laws.empty();
   const std::vector<std::string>& names = of_laws ? options.laws : options.theories;
@@ -43,7 +51,7 @@ int run_models(const CompareOptions& options) {
         [&](std::size_t i) { session.status.show("running " + names[i]); }, session.progress());
   });
   session.status.clear();
-  if (!runs.empty()) print("{}\n\n{}", title_of(loaded.value), model_table(runs));
+  if (!runs.empty()) print("{}\n\n{}", heading(loaded.value), model_table(runs));
   return session.end(session.listener.interrupted(), status_of(runs),
                      "; the models above are those that had ended");
 }
@@ -71,7 +79,7 @@ int run_comparison(CompareOptions& options) {
     return session.end_interrupted(" before a method was compared; nothing is written");
   }
   session.listener.hold_back();
-  print("{}\n\n{}", title_of(loaded.value), comparison_table(comparison));
+  print("{}\n\n{}", heading(loaded.value), comparison_table(comparison));
   if (directory) {
     const auto write = [&](const auto& place) { write_comparison(place, comparison); };
     if (!write_after_printing(*directory, write)) return failed;
@@ -88,6 +96,7 @@ void add_compare(CLI::App& program, int& status) {
       program, status, "compare", "Run one scene by several methods, beam theories or contact laws",
       run_comparison);
   options.input.add_to(command);
+  options.input.add_opening_to(command);
   add_list_option(command, "--methods", options.methods,
                   "Methods to compare, separated by commas; a method's table after a colon, "
                   "its solver.events after a plus sign");

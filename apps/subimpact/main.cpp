@@ -36,6 +36,9 @@ std::optional<std::string> unknown_command(const CLI::App& program, int argc, ch
     return fmt::format("unknown option \"{}\"; a command comes first; see subimpact --help",
                        argv[1]);
   }
+  if (argv[1] == std::string_view("plan")) {
+    return "\"plan\" was removed; use subimpact explain CASE --within TIME";
+  }
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return std::nullopt;
@@ -139,7 +142,7 @@ int run_command_line(int argc, char** argv) {
   program.require_subcommand(1);
   program.failure_message(usage_error);
   for (const auto add : {app::add_new, app::add_run, app::add_compare, app::add_work_precision,
-                         app::add_stability, app::add_plan, app::add_sensitivity, app::add_explain,
+                         app::add_stability, app::add_sensitivity, app::add_explain,
                          app::add_plot_and_report, app::add_listings, app::add_manual}) {
     add(program, status);
   }

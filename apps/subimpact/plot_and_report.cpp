@@ -1,9 +1,9 @@
 #include <cmath>
 #include <system_error>
 
-#include "case/units.h"
+#include "case/keys/units.h"
 #include "commands.h"
-#include "io/listed_files.h"
+#include "io/directory/listed_files.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/figures.h"

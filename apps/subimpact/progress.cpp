@@ -13,7 +13,7 @@
 namespace subimpact::app {
 namespace {
 
-// Those by which users, batch systems and limits of the shell end programs.
+// Signals by which users, batch systems and limits of the shell end programs.
 constexpr std::array listened_to = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,  SIGXCPU,
                                     SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM};
 

@@ -4,11 +4,11 @@
 #include <cerrno>
 
 #include "commands.h"
-#include "report/uncertain.h"
+#include "report/text/uncertain.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
-#include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
+#include "subimpact/study/sensitivity/predictability.h"
 
 namespace subimpact::app {
 namespace {
@@ -72,7 +72,7 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
   return run_as_asked(loaded.value, loaded.given, std::move(request));
 }
 
-// Of a case with scatter: what it leaves of the event times.
+// What scatter leaves of the event times of a case that has it.
 void add_scatter(WithinRun& run, const RunOptions& options, const InterruptListener& listener) {
   if (!run.result.outcome.completed() || scattering_keys(run.input).empty()) return;
   if (run.input.parts.start) {
@@ -230,6 +230,7 @@ void add_run(CLI::App& program, int& status) {
       "missing. Default: the case file's name without its ending, and -results, "
       "in the current directory");
   options.input.add_within_to(command);
+  options.input.add_opening_to(command);
   options.input.may_repeat = true;
   command.add_option(
       "--continue", options.continued,
@@ -255,6 +256,7 @@ void add_run(CLI::App& program, int& status) {
       "  subimpact run case.toml\n"
       "  subimpact run case.toml --out out/tight --set solver.rtol=1e-10\n"
       "  subimpact run case.toml --within 1us\n"
+      "  subimpact run case.toml --opening 1um\n"
       "  subimpact run case.toml --error-bars\n"
       "  subimpact run case.toml --error-bars=time\n"
       "  subimpact run case.toml --method central-difference --set solver.step=1e-7\n"

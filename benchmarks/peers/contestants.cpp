@@ -9,7 +9,7 @@
 
 #include "peer.h"
 #include "simulate/run_parts.h"
-#include "subimpact/study/event_errors.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 namespace subimpact::peers {
 namespace {

@@ -17,9 +17,9 @@
 
 #include "../measure.h"
 #include "contestants.h"
+#include "report/figures/gnuplot.h"
 #include "report/files.h"
-#include "report/gnuplot.h"
-#include "subimpact/study/event_errors.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 namespace {
 
@@ -107,10 +107,8 @@ std::string best_text(const Contestant& contestant) {
                              : "no run has all sub-impacts";
 }
 
-// Whether this program reaches every wanted error.
-bool compare(const Section& section, std::vector<Contestant>& all,
-             const std::vector<SubImpact>& reference) {
-  // Side by side: every setting that wins for its contestant, in turn, several times.
+// Side by side: every setting that wins for its contestant, in turn, several times.
+void repeat_winners(std::vector<Contestant>& all, const std::vector<SubImpact>& reference) {
   std::vector<Attempt*> chosen;
   for (Contestant& contestant : all) {
     for (const double wanted : wanted_errors) {
@@ -124,6 +122,26 @@ bool compare(const Section& section, std::vector<Contestant>& all,
   for (int round = 0; round < rounds; ++round) {
     for (Attempt* attempt : chosen) run(*attempt, reference);
   }
+}
+
+// For each wanted error that is reached: the least seconds, and the contestant that takes them.
+using Fastest = std::map<double, std::pair<double, std::string>>;
+
+Fastest fastest_of(std::vector<Contestant>& all, bool ours) {
+  Fastest fastest;
+  for (Contestant& contestant : all) {
+    if (contestant.ours != ours) continue;
+    for (const double wanted : wanted_errors) {
+      const Attempt* attempt = cheapest(contestant, wanted);
+      if (attempt == nullptr) continue;
+      auto& least = fastest.try_emplace(wanted, HUGE_VAL, "").first->second;
+      if (attempt->seconds < least.first) least = {attempt->seconds, contestant.name};
+    }
+  }
+  return fastest;
+}
+
+void print_table(const Section& section, std::vector<Contestant>& all, const Fastest& ours) {
   fmt::print(
       "\n{}: seconds for the largest error of an event time, and ratios to the fastest of "
       "subimpact\n\n",
@@ -134,21 +152,6 @@ bool compare(const Section& section, std::vector<Contestant>& all,
   fmt::print("\n|---|");
   for (std::size_t i = 0; i < std::size(wanted_errors); ++i) fmt::print("---|---|---|");
   fmt::print("\n");
-  std::map<double, double> ours;
-  std::map<double, std::pair<double, std::string>> others;
-  for (Contestant& contestant : all) {
-    for (const double wanted : wanted_errors) {
-      const Attempt* attempt = cheapest(contestant, wanted);
-      if (attempt == nullptr) continue;
-      if (contestant.ours) {
-        double& least = ours.try_emplace(wanted, HUGE_VAL).first->second;
-        least = std::min(least, attempt->seconds);
-      } else {
-        auto& least = others.try_emplace(wanted, HUGE_VAL, "").first->second;
-        if (attempt->seconds < least.first) least = {attempt->seconds, contestant.name};
-      }
-    }
-  }
   for (Contestant& contestant : all) {
     fmt::print("| {} |", contestant.name);
     for (const double wanted : wanted_errors) {
@@ -156,27 +159,43 @@ bool compare(const Section& section, std::vector<Contestant>& all,
       if (attempt == nullptr) {
         fmt::print(" {} | | |", best_text(contestant));
       } else {
-        fmt::print(" {} | {} | {} |", digits(attempt->seconds),
-                   ours.contains(wanted) ? ratio_text(attempt->seconds / ours[wanted]) : "",
-                   attempt->text);
+        fmt::print(
+            " {} | {} | {} |", digits(attempt->seconds),
+            ours.contains(wanted) ? ratio_text(attempt->seconds / ours.at(wanted).first) : "",
+            attempt->text);
       }
     }
     fmt::print("\n");
   }
   fmt::print("\n");
+}
+
+void print_verdicts(const Section& section, const Fastest& ours, const Fastest& others) {
   for (const double wanted : wanted_errors) {
     if (!ours.contains(wanted)) {
       fmt::print("{}, {:.0e} us: not reached by subimpact\n", section.name, us * wanted);
-    } else if (!others.contains(wanted)) {
+      continue;
+    }
+    const double seconds = ours.at(wanted).first;
+    if (!others.contains(wanted)) {
       fmt::print("{}, {:.0e} us: subimpact {} s; no other reaches it\n", section.name, us * wanted,
-                 digits(ours[wanted]));
+                 digits(seconds));
     } else {
+      const auto& [of_other, name] = others.at(wanted);
       fmt::print("{}, {:.0e} us: the fastest other, {}, takes {} times subimpact's {} s\n",
-                 section.name, us * wanted, others[wanted].second,
-                 ratio_text(others[wanted].first / ours[wanted]), digits(ours[wanted]));
+                 section.name, us * wanted, name, ratio_text(of_other / seconds), digits(seconds));
     }
   }
   std::fflush(stdout);
+}
+
+// Whether this program reaches every wanted error.
+bool compare(const Section& section, std::vector<Contestant>& all,
+             const std::vector<SubImpact>& reference) {
+  repeat_winners(all, reference);
+  const Fastest ours = fastest_of(all, true);
+  print_table(section, all, ours);
+  print_verdicts(section, ours, fastest_of(all, false));
   return ours.size() == std::size(wanted_errors);
 }
 

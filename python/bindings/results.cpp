@@ -8,7 +8,7 @@
 
 #include "bindings.h"
 #include "finished.h"
-#include "io/run_tables.h"
+#include "io/records/run_tables.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
@@ -90,7 +90,7 @@ auto at_end(double Energies::*energy) {
 std::optional<double> permanent_set(const Finished& run) {
   double largest = 0.0;
   for (const EnvelopeRow& row : run.result.envelope) {
-    largest = std::max(largest, std::abs(row.permanent_set));
+    largest = std::max(largest, std::abs(row.set_from_supports));
   }
   return run.result.envelope.empty() ? std::nullopt : std::optional(largest);
 }

@@ -7,8 +7,8 @@
 #include "bindings.h"
 #include "finished.h"
 #include "overseer.h"
-#include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
+#include "subimpact/study/sensitivity/predictability.h"
 
 namespace subimpact::python {
 namespace {

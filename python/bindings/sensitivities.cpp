@@ -13,8 +13,8 @@
 #include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
 #include "subimpact/report/text.h"
-#include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
+#include "subimpact/study/sensitivity/predictability.h"
 #include "tables.h"
 
 namespace subimpact::python {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bindings.h"
-#include "io/csv_columns.h"
+#include "io/records/csv_columns.h"
 
 namespace subimpact::python {
 

@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.h"
+#include "case/keys/units.h"
 
 namespace subimpact::python {
 namespace {
@@ -72,12 +73,21 @@ std::optional<KeyValue> placed(const CaseKey& key, py::handle value) {
     for (const py::handle item : py::iter(value)) {
       const auto entry = py::cast<py::dict>(item);
       auto& [position, table] = values.entries.emplace_back();
+      const auto number = [&](const py::handle& given, const std::string& unit) {
+        if (!py::isinstance<py::str>(given)) return given.cast<double>();
+        const auto value = value_in(unit, given.cast<std::string>());
+        if (!value) throw py::cast_error("another unit");
+        return *value;
+      };
       position = entry["position"].cast<double>();
       if (entry.size() != 2) return std::nullopt;
       if (entry.contains("table") && values.quantity == "force") {
-        table = entry["table"].cast<std::vector<std::pair<double, double>>>();
+        for (const auto& [time, force] :
+             entry["table"].cast<std::vector<std::pair<py::object, py::object>>>()) {
+          table.emplace_back(number(time, "s"), number(force, key.unit));
+        }
       } else {
-        table = {{0.0, entry[values.quantity.c_str()].cast<double>()}};
+        table = {{0.0, number(entry[values.quantity.c_str()], key.unit)}};
       }
       if (table.empty()) return std::nullopt;
     }
@@ -94,6 +104,14 @@ std::optional<KeyValue> placed(const CaseKey& key, py::handle value) {
 KeyValue key_value(const CaseKey& key, py::handle value) {
   const bool is_placed = key.type == KeyType::placed && !py::isinstance<py::str>(value);
   const std::optional<KeyValue> converted = is_placed ? placed(key, value) : any_value(value);
+  const auto* text = converted ? std::get_if<std::string>(&*converted) : nullptr;
+  const bool is_with_unit = text != nullptr && key.type == KeyType::number;
+  if (const auto in_si = is_with_unit ? value_in(key.unit, *text) : std::nullopt) {
+    if (const auto problem = problem_with(key, *in_si)) {
+      throw InvalidCase(key.name, key.name + ' ' + *problem);
+    }
+    return *converted;  // the unit is checked against the law when the case is read
+  }
   const auto problem = converted ? problem_with(key, *converted)
                                  : std::optional(refusal(key, py::repr(value).cast<std::string>()));
   if (problem) throw InvalidCase(key.name, key.name + ' ' + *problem);

@@ -26,6 +26,8 @@ def text_of(value: Any) -> str:
         return quoted(value)
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(text_of(item) for item in value) + "]"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{dotted(key)} = {text_of(item)}" for key, item in value.items()) + " }"
     return repr(value)
 
 

@@ -23,7 +23,7 @@ class Key:
     type: str  #: "number", "count", "flag", "text", "choice", "pair" or "numbers"
     unit: str  #: "" for none
     allowed: str  #: in words: "a number, above 0 (m)"
-    choices: tuple[str, ...]  #: of "choice" and "pair"
+    choices: tuple[str, ...]  #: of "choice" and "pair"; words for a "number"
     required: bool  #: has no default
     default: str  #: in words or as a case file has it
     meaning: str
@@ -137,8 +137,10 @@ class Case:
         return self._loaded
 
     def __getitem__(self, key: str) -> Any:
-        if self._settings.get(key) is not None:
-            return self._settings[key]
+        value = self._settings.get(key)
+        has_unit = isinstance(value, str) and _KEYS[key].type == "number"
+        if value is not None and not has_unit:
+            return value
         _check_name(key)
         return self._load().value(key)
 

@@ -55,7 +55,8 @@ const std::vector<Quantity> quantities = {
 // log10 of a key's value; 0 for a value that is not given, zero or infinite.
 double decades_of(const Case& input, const char* name) {
   const std::optional<KeyValue> value = find_case_key(name)->get(input);
-  const double number = value ? std::abs(std::get<double>(*value)) : 1.0;
+  const double* given = value ? std::get_if<double>(&*value) : nullptr;
+  const double number = given != nullptr ? std::abs(*given) : 1.0;
   return number > 0.0 && std::isfinite(number) ? std::log10(number) : 0.0;
 }
 
@@ -131,7 +132,8 @@ void check_contact(const Case& input) {
     if (!is_number || key.name == "contact.damping" || uses_key(way, name) || !key.get(input))
       continue;
     refuse(name, "is given, but {}; leave it out, or choose another contact.law",
-           key.name == "contact.yield_pressure" ? "only \"sphere\" yields at it" : way.why_unused);
+           key.name == "contact.yield_pressure" ? "only \"sphere\" and \"line\" yield at it"
+                                                : way.why_unused);
   }
   const std::string why_not =
       law.why_not != nullptr ? law.why_not(input.scene, gap_radii(input.scene)) : "";

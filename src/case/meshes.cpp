@@ -8,12 +8,11 @@
 
 #include "case/problem.h"
 #include "case/refuse.h"
-#include "model/cell_mesh.h"
-#include "model/hermite_mesh.h"
-#include "model/mixed_mesh.h"
-#include "model/rigid_mesh.h"
-#include "model/spectral_mesh.h"
-#include "model/timoshenko_mesh.h"
+#include "model/mesh/cell_mesh.h"
+#include "model/mesh/hermite/hermite_mesh.h"
+#include "model/mesh/rigid_mesh.h"
+#include "model/mesh/spectral_mesh.h"
+#include "model/mesh/timoshenko_mesh.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -82,58 +81,6 @@ void check_cells(const Case& input) {
   }
 }
 
-// What mixed cells are not derived for.
-void check_mixed_model(const Case& input) {
-  const Beam& beam = input.scene.beam;
-  const BeamDamping& damping = beam.damping;
-  const bool is_shaped = beam.section.shape != SectionShape::rectangle;
-  const bool yields = may_yield(input);
-  const char* of_scene =
-      "is given, but mixed cells, whose masses and step are made for free waves, have no loads, "
-      "springs or motion at the start; leave it out, or use another mesh";
-  const char* of_damping =
-      "is above 0, but mixed cells have no damping; leave it out, or use another mesh";
-  const char* of_section =
-      "is given, but mixed cells that yield find the curvature from the moment by the closed "
-      "form of a rectangle that does not harden; allowed with model.mesh = \"mixed\": such a "
-      "rectangle, or model.section = \"elastic\"; choose one, or another mesh";
-  check_rules({{input.scene.gravity != 0.0, "scene.gravity", of_scene},
-               {beam.load != 0.0, "beam.load", of_scene},
-               {!beam.forces.empty(), "beam.forces", of_scene},
-               {!beam.springs.empty(), "beam.springs", of_scene},
-               {beam.foundation != 0.0, "beam.foundation", of_scene},
-               {beam.velocity != 0.0, "beam.velocity", of_scene},
-               {beam.angular_velocity != 0.0, "beam.angular_velocity", of_scene},
-               {beam.rotary_inertia() == 0.0, "beam.theory",
-                "is \"euler-bernoulli\", but mixed cells need rotary inertia; allowed with "
-                "model.mesh = \"mixed\": \"rayleigh\"; choose it, or another mesh"},
-               {damping.ratio > 0.0, "beam.damping.ratio", of_damping},
-               {damping.mass > 0.0, "beam.damping.mass", of_damping},
-               {damping.stiffness > 0.0, "beam.damping.stiffness", of_damping}});
-  if (input.parts.section || input.model.section == SectionKind::layers) {
-    refuse(
-        "model.section",
-        "is {}, but mixed cells find the curvature from the moment by the rectangle's closed form; "
-        "allowed with model.mesh = \"mixed\": \"exact\", \"elastic\"; choose one, or another mesh",
-        input.parts.section ? "a section of its own" : "\"layers\"");
-  }
-  check_rules({{yields && is_shaped, "beam.section.shape", of_section},
-               {yields && beam.hardening > 0.0, "beam.hardening", of_section}});
-}
-
-void check_mixed(const Case& input) {
-  check_mixed_model(input);
-  const auto cells = static_cast<std::size_t>(std::max(input.model.segments, 0));
-  const double at = input.scene.striker.position;
-  const std::size_t before = MixedMesh::cells_before(at, cells);
-  if (std::min(before, cells - before) >= MixedMesh::fewest_beside) return;
-  const double nearest = static_cast<double>(MixedMesh::fewest_beside) / static_cast<double>(cells);
-  refuse("striker.position",
-         "is {}, closer to an end than {} of {} segments; allowed: from {:.6g} to {:.6g}; move the "
-         "strike inwards or use more segments",
-         at, MixedMesh::fewest_beside, cells, nearest, 1.0 - nearest);
-}
-
 // There is a node at the strike; an element much shorter than others would determine the time step.
 void check_elements(const Case& input) {
   const int elements = input.model.elements;
@@ -200,18 +147,6 @@ Mesh make_cell_mesh(const Case& input) {
   return make_mesh<CellMesh>(input, segments, extent_of<CellMesh>(input), spacing_of(input));
 }
 
-Mesh make_mixed_mesh(const Case& input) {
-  const int cells = input.model.segments;
-  const bool in_differences = input.solver.method == Method::central_difference;
-  double ratio = in_differences ? 1.0 : 0.0;
-  if (in_differences && input.solver.step) {
-    const double natural = MixedMesh::natural_step_of(
-        input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(cells));
-    ratio = std::min(*input.solver.step / natural, 1.0);  // longer ones are refused (simulate)
-  }
-  return make_mesh<MixedMesh>(input, cells, extent_of<MixedMesh>(input), ratio);
-}
-
 Mesh make_hermite_mesh(const Case& input) {
   const bool has_hinges = input.model.hinges == HingeUse::automatic && may_yield(input);
   return make_mesh<HermiteMesh>(
@@ -237,11 +172,6 @@ int order_of_elements(const Case& input) {
   return input.model.hinges == HingeUse::off ? 1 : 2;
 }
 
-// Plastic hinges keep the order of times between 1 and 2; of elastic beams, the contact's part of
-// the error in time has the order 2, below some 0.01 us.
-int order_of_mixed(const Case& input) { return may_yield(input) ? 1 : 2; }
-
-constexpr const char* keys_of_mixed[] = {"model.segments", "model.symmetry"};
 constexpr const char* keys_of_cells[] = {"model.segments", "model.spacing", "model.symmetry"};
 constexpr const char* keys_of_elements[] = {"model.elements",       "model.sections_per_element",
                                             "model.hinges",         "model.strike_refinement",
@@ -261,20 +191,6 @@ constexpr MeshDescriptor rows[] = {
                      [](const Case& c) {
                        return c.model.spacing == CellSpacing::points ? 1 : 2;
                      }}}},
-    {.kind = MeshKind::mixed,
-     .name = "mixed",
-     .note = "cells with moments linear between nodes, fourth order while nothing flows, best by "
-             "central differences at a step of their own: Rayleigh's theory, exact or elastic "
-             "sections",
-     .keys = keys_of_mixed,
-     .has_own_step = true,
-     .suits = [](const Beam& beam) { return !beam.shears(); },
-     .check = check_mixed,
-     .make = make_mixed_mesh,
-     .refinement = {{&ModelOptions::segments, "model.segments", "mixed cells",
-                     static_cast<int>(MixedMesh::fewest_cells), false,
-                     [](const Case& c) { return c.scene.beam.length / c.model.segments; },
-                     order_of_mixed}}},
     {.kind = MeshKind::hermite,
      .name = "hermite",
      .note = "cubic Hermite elements, fourth order, for beams that do not shear",
@@ -350,16 +266,6 @@ void check_mesh(const Case& input) {
 MeshKind default_mesh(const Case& input) {
   if (!strikes_end(input) || input.model.spacing == CellSpacing::points) return MeshKind::cells;
   return input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite;
-}
-
-bool step_follows_mesh(const Case& input) {
-  const bool chosen = !input.solver.step && input.solver.method == Method::central_difference;
-  return chosen && mesh_has_own_step(input);
-}
-
-bool mesh_has_own_step(const Case& input) {
-  if (input.parts.mesh) return input.parts.mesh->natural_step().has_value();
-  return descriptor_of(input.model.mesh).has_own_step;
 }
 
 bool mesh_uses(const Case& input, const char* key) {

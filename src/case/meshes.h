@@ -17,9 +17,6 @@ struct MeshDescriptor {
 
   std::span<const char* const> keys;  ///< that have an effect with this mesh and not with all
   bool bends = true;                  ///< whether sections may yield
-  /// Whether the masses of the mesh depend on the step, and a step of central differences belongs
-  /// to it.
-  bool has_own_step = false;
   /// Whether the mesh models beams of that theory.
   bool (*suits)(const Beam& beam) = [](const Beam&) { return true; };
 
@@ -42,9 +39,6 @@ struct MeshDescriptor {
   std::optional<Refinement> refinement = {};
 };
 
-/// Number of mixed cells if the case does not give it.
-inline constexpr int usual_mixed_cells = 400;
-
 std::span<const MeshDescriptor> meshes();
 const MeshDescriptor& descriptor_of(MeshKind kind);
 
@@ -53,12 +47,6 @@ void check_mesh(const Case& input);
 
 /// Cells, but for a strike at an end: a mesh with a node there.
 MeshKind default_mesh(const Case& input);
-
-/// Whether a step of central differences belongs to the mesh.
-bool mesh_has_own_step(const Case& input);
-
-/// Whether the case takes that step, so that another mesh changes it too.
-bool step_follows_mesh(const Case& input);
 
 /// Whether the mesh of a case uses a key of [model] that not all meshes use.
 bool mesh_uses(const Case& input, const char* key);

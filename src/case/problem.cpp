@@ -9,10 +9,10 @@
 
 #include "case/meshes.h"
 #include "case/refuse.h"
-#include "model/sprung_mesh.h"
+#include "model/mesh/sprung_mesh.h"
 #include "numerics/units.h"
-#include "simulate/methods.h"
 #include "simulate/run_parts.h"
+#include "simulate/settings/methods.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "model/contact_laws.h"
+#include "model/contact/contact_laws.h"
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "simulate/refuse.h"
+#include "simulate/settings/refuse.h"
 
 namespace subimpact {
 

@@ -38,6 +38,9 @@ std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key
     if (!std::get<PlacedValues>(*key.get(input)).entries.empty()) return std::nullopt;
     return "is empty, so that it has no values to vary; give one";
   }
+  if (std::holds_alternative<std::string>(*key.get(input))) {
+    return fmt::format("is {}, which is no number to vary", to_text(*key.get(input)));
+  }
   const double x = number_of(input, key);
   const std::string value = fmt::format("is {:g}, ", x);
   if (x == 0.0 || !std::isfinite(x)) {

@@ -35,7 +35,6 @@ void CentralDifference::advance(double t, double h, const State& from, const Ali
   assign_by_lines(q, n_, [=](auto at) { return at(q0) + h * at(v); });
   if (constant_force_on_last_) q[n_ - 1] = q0[n_ - 1] + h * v0[n_ - 1];
   ode_.set_time(t + h);
-  ode_.settle({q, n_});
   ode_.acceleration({q, n_}, acceleration);
   ++work_.right_hand_sides;
   assign_by_lines(v, n_, [=](auto at) { return at(v) + half * at(a1); });

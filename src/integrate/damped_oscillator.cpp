@@ -1,4 +1,4 @@
-#include "integrate/oscillator_step.h"
+#include "integrate/damped_oscillator.h"
 
 #include <algorithm>
 #include <array>
@@ -234,7 +234,7 @@ double integral_of_squared_velocity(double omega, double delta, double q, double
     power *= t;
   }
   const double first = integral_with(z1, r1, c, t);
-  // Of an underdamped oscillator the second term is the conjugate of the first.
+  // The second term of an underdamped oscillator is the conjugate of the first.
   sum += first + (root.real() == 0.0 ? first : integral_with(z2, r2, c, t));
   const double both = -2.0 * delta;  // r1 + r2
   const double integral = delta > 0.0 ? std::expm1(both * t) / both : t;

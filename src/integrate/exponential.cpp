@@ -144,6 +144,7 @@ double Exponential::error_of_swings(const OscillatorStep& step) const {
   const double* const q = y0_.data();
   const double* const v = y0_.data() + n_;
   const double h = step.length();
+  if (!(h * h * h > 0.0)) return 0.0;
   const std::span<const double> force = force_.coefficients();
   const double f0 = force[0], f1 = force[1] / h, f2 = force[2] / (h * h);
   const double f3 = force[3] / (h * h * h);

@@ -219,7 +219,6 @@ void Nystrom::advance(double h, std::vector<Vector>& stages, State& y) {
     position.add(time, v0);
     add_stages(position, row, length, stages, h * h);
     position.write(q, n_);
-    ode_.settle({q, n_});
   };
   const std::size_t n_inner = table_.n_stages() - (first_same_as_last_ ? 1 : 0);
   for (std::size_t i = 1; i < n_inner; ++i) {

@@ -53,7 +53,6 @@ class Nystrom final : public Integrator {
   // The stages of a step of length h from (y0_, stages_[0]), and its end.
   void advance(double h, std::vector<Vector>& stages, State& y);
   double error_norm(double h) const;
-  // At positions that flow has settled.
   void accelerate(double t, const double* positions, Vector& result);
 
   SecondOrderOde& ode_;

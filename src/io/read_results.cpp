@@ -10,11 +10,11 @@
 #include <optional>
 
 #include "case/refuse.h"
-#include "io/csv_reader.h"
-#include "io/listed_files.h"
-#include "io/row_thinning.h"
-#include "io/run_record.h"
-#include "io/run_tables.h"
+#include "io/directory/listed_files.h"
+#include "io/records/csv_reader.h"
+#include "io/records/row_thinning.h"
+#include "io/records/run_record.h"
+#include "io/records/run_tables.h"
 
 namespace subimpact {
 namespace {

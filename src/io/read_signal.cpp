@@ -10,9 +10,9 @@
 #include <optional>
 #include <sstream>
 
+#include "case/keys/units.h"
 #include "case/refuse.h"
-#include "case/units.h"
-#include "io/csv_reader.h"
+#include "io/records/csv_reader.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {

@@ -6,9 +6,9 @@
 #include <cstring>
 
 #include "case/refuse.h"
-#include "io/listed_files.h"
-#include "io/run_record.h"
-#include "io/run_tables.h"
+#include "io/directory/listed_files.h"
+#include "io/records/run_record.h"
+#include "io/records/run_tables.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 
@@ -104,10 +104,13 @@ bool may_write_case(const fs::path& directory) {
 }
 
 // Figures of an older run in their folder; left where another command writes there.
-void remove_old_figures(const fs::path& directory) {
+void remove_old_figures(OutputDirectory& of_run) {
+  const fs::path& directory = of_run.path();
   if (!fs::exists(directory / "figures" / manifest_name)) return;
   try {
-    OutputDirectory(directory / "figures", "figures", read_manifest(directory)->identity).commit();
+    OutputDirectory old(directory / "figures", "figures", read_manifest(directory)->identity);
+    old.commit();
+    of_run.add_notes(old.notes());
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch)
   }
 }
@@ -218,7 +221,7 @@ void ResultWriter::finish(const Case& input, const Result& result) {
     if (may_write_case(directory_.path())) write_file(place / case_name, case_file_text(input));
     directory_.commit();
   });
-  remove_old_figures(directory_.path());
+  remove_old_figures(directory_);
 }
 
 void write_results(const fs::path& directory, const Case& input, const Result& result) {

@@ -58,8 +58,9 @@ double EventFreeHorizon::from(std::span<const double> z, std::span<const double>
     }
     std::ranges::fill(level.margins, -1.0);
   }
-  time_of_largest_ = 0.0;
+  time_of_largest_ = time_of_smallest_ = 0.0;
   largest_ = -std::numeric_limits<double>::infinity();
+  smallest_ = -largest_;
   Level& first = levels_.front();
   first.functions.clear();
   for (std::size_t i = 0; i < n_functions(); ++i) {
@@ -119,6 +120,10 @@ double EventFreeHorizon::event_free_time(std::size_t index, std::size_t n) {
     if (index == 0 && level.values.back() > largest_) {
       largest_ = level.values.back();
       time_of_largest_ = begun + level.interval;
+    }
+    if (index == 0 && level.values.back() < smallest_) {
+      smallest_ = level.values.back();
+      time_of_smallest_ = begun + level.interval;
     }
   }
   return static_cast<double>(n) * level.interval;

@@ -24,9 +24,10 @@ class EventFreeHorizon {
   double from(std::span<const double> z, std::span<const double> rates, std::span<const double> low,
               std::span<const double> high, double longest);
 
-  /// Time (s) after the start at which the samples of the last function are largest, and the time
-  /// between two samples.
+  /// Times (s) after the start at which the samples of the last function are largest and smallest,
+  /// and the time between two samples.
   double time_of_largest() const { return time_of_largest_; }
+  double time_of_smallest() const { return time_of_smallest_; }
   double sample_interval() const { return levels_.front().interval; }
 
  private:
@@ -52,7 +53,7 @@ class EventFreeHorizon {
   std::size_t n_uniform_;  // of them of frequency 0
   std::vector<double> amplitudes_;
   std::span<const double> low_, high_;  // of the present search
-  double time_of_largest_ = 0.0, largest_ = 0.0;
+  double time_of_largest_ = 0.0, largest_ = 0.0, time_of_smallest_ = 0.0, smallest_ = 0.0;
   std::vector<Level> levels_;
 };
 

@@ -60,6 +60,9 @@ class Integrator {
 
   /// Begins, or begins again after an event, at (t, y). The acceleration may have changed.
   virtual void restart(double t, const State& y) = 0;
+  /// After a restart: the next step is at most this long (s), for methods that would begin with the
+  /// length of the step before, where the forces have become stiffer.
+  virtual void limit_next_step(double /*longest*/) {}
 
   /// Takes one accepted step from time() on. May pass any event: the acceleration is then that of
   /// the branch in force, continued. Throws IntegrationFailure; time() and state() are then still
@@ -95,9 +98,10 @@ class Integrator {
   /// Whether the integrator has proven that no event happened in the last step, however long:
   /// events need not be looked for in it.
   virtual bool is_event_free() const { return false; }
-  /// Two times (s) within such a step between which the last event function has its largest value;
-  /// nothing after other steps.
+  /// Two times (s) within such a step between which the last event function has its largest value,
+  /// or its smallest; nothing after other steps.
   virtual std::optional<std::pair<double, double>> around_largest() const { return std::nullopt; }
+  virtual std::optional<std::pair<double, double>> around_smallest() const { return std::nullopt; }
 
   /// The integral of the square of each velocity from the start of the last step to t, where the
   /// method has it in closed form; returns false where the method has none.

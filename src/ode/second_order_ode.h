@@ -21,11 +21,6 @@ class SecondOrderOde {
   virtual std::size_t n_positions() const = 0;
   /// a(q) for q of n entries; changes no history. Not for an ODE that depends_on_velocity().
   virtual void acceleration(std::span<const double> positions, std::span<double> result) = 0;
-  /// Moves positions that a method has advanced by velocities alone to where what has no inertia of
-  /// its own puts them, since the last commit. Returns whether any moved; in most ODEs none do.
-  /// `acceleration` takes positions that have been settled.
-  virtual bool settle(std::span<double> /*positions*/) { return false; }
-  virtual bool settles() const { return false; }  ///< whether settle() may move any
   virtual bool depends_on_velocity() const { return false; }
   /// Called before each evaluation with its time, s: for accelerations that depend on it.
   virtual void set_time(double /*t*/) {}

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/case_choices.h"
 #include "case/counted.h"
-#include "io/listed_files.h"
+#include "case/keys/case_choices.h"
+#include "io/directory/listed_files.h"
 #include "numerics/units.h"
-#include "report/gnuplot.h"
+#include "report/figures/gnuplot.h"
 #include "report/study_columns.h"
 #include "subimpact/report/studies.h"
 

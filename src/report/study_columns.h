@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "io/csv_columns.h"
+#include "io/records/csv_columns.h"
 
 namespace subimpact {
 

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "case/counted.h"
-#include "io/csv_reader.h"
-#include "io/listed_files.h"
+#include "io/directory/listed_files.h"
+#include "io/records/csv_reader.h"
 #include "numerics/units.h"
-#include "report/gnuplot.h"
+#include "report/figures/gnuplot.h"
 #include "report/study_columns.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"

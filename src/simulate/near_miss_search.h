@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "simulate/observed_step.h"
+#include "simulate/loop/observed_step.h"
 #include "subimpact/simulate/records.h"
 
 namespace subimpact {

@@ -6,18 +6,22 @@
 #include <new>
 
 #include "numerics/units.h"
-#include "simulate/methods.h"
-#include "simulate/recorder.h"
-#include "simulate/refuse.h"
+#include "simulate/records/recorder.h"
 #include "simulate/run_parts.h"
-#include "subimpact/model/contact_law.h"
-#include "system/no_more_contact.h"
+#include "simulate/settings/methods.h"
+#include "simulate/settings/refuse.h"
+#include "subimpact/model/contact/contact_law.h"
+#include "system/flight/no_more_contact.h"
 
 namespace subimpact {
 namespace {
 
 constexpr long progress_interval = 512;  // steps
 constexpr long proof_interval = 32;
+
+// The first step of a contact by methods that would begin with that of the flight before it, over
+// the time that short contacts take.
+constexpr double first_part_of_contact = 0.1;
 
 // A contact of fewer steps is not resolved.
 constexpr long fewest_steps_in_contact = 8;
@@ -56,10 +60,9 @@ void warn_of_short_contacts(const Recorder& recorder, const ResolvedSettings& us
   if (n_short == 0) return;
   result.warnings.push_back(
       fmt::format("{} of {} contacts last fewer than {} steps of {:.4g} us, the shortest {}: their "
-                  "times, forces and even their number are uncertain; use {}",
+                  "times, forces and even their number are uncertain; use a smaller solver.step",
                   n_short, steps.size(), fewest_steps_in_contact, us * *used.step,
-                  *std::min_element(steps.begin(), steps.end()),
-                  used.natural_step ? "more model.segments" : "a smaller solver.step"));
+                  *std::min_element(steps.begin(), steps.end())));
 }
 
 void count_work(const Integrator& integrator, const StruckBeam& beam, const EventLoop& loop,
@@ -72,7 +75,6 @@ void count_work(const Integrator& integrator, const StruckBeam& beam, const Even
       in_modes ? 0 : beam.n_accelerations() + loop.n_correction_solves() + counts.mass_solves;
   work.factorisations += in_modes ? 0 : 1;
   work.roots = loop.n_events();
-  work.flow = beam.flow_work();
 }
 
 // Steps to the end, or to where the run is stopped.
@@ -133,9 +135,7 @@ void judge_end(Audit& audit, const EventLoop& loop, Outcome& outcome) {
 void add_remedy(Outcome& outcome, const RunParts& parts) {
   const std::optional<double>& step = parts.settings.step;
   const bool failed = outcome.kind == OutcomeKind::solver_failed;
-  if (parts.settings.natural_step && (failed || outcome.first_failure)) {
-    outcome.message += "; use another number of model.segments, or another mesh";
-  } else if (failed) {
+  if (failed) {
     outcome.message += parts.given.solver.step
                            ? "; use a smaller solver.step or another solver.method"
                            : "; use a larger solver.rtol or another solver.method";
@@ -157,7 +157,8 @@ std::optional<std::string> rule_broken_by_law(const RunParts& parts) {
   const double speed = parts.problem.bodies().velocity_scale();
   const double deepest =
       law.indentation_at(std::max(parts.settings.initial_energy, 0.5 * mass * speed * speed));
-  return broken_rule(law, std::min(deepest, parts.problem.beam.height()));
+  return broken_rule(law,
+                     std::min({deepest, parts.problem.beam.height(), law.largest_indentation()}));
 }
 
 }  // namespace
@@ -176,8 +177,16 @@ LoopOptions loop_options(const RunParts& parts) {
         correction_tolerance(given.solver.rtol) * parts.beam.scales().velocity;
   }
   loop.largest_indentation = parts.problem.beam.height();
+  const ContactLaw& law = parts.beam.contact().law();
+  if (const double deepest = law.largest_indentation(); deepest < loop.largest_indentation) {
+    loop.largest_indentation = deepest;
+    loop.end_of_law =
+        fmt::format("{:.4g} mm, where the contact is as wide as the law \"{}\" allows on this beam",
+                    mm * deepest, law.name());
+  }
   loop.audit_interval = descriptor_of(given.solver.method).audit_interval;
   loop.shortest_contact = M_PI / used.joined_frequency;
+  loop.first_step_of_contact = first_part_of_contact * used.contact_time;
   return loop;
 }
 
@@ -224,10 +233,11 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
       loop.time() - contacts.back().start > contacts_of_rest * used.contact_time) {
     result.rests_since = contacts.back().start;
   }
+  warn_of_short_contacts(recorder, used, result);
+  join_sub_impacts(result.sub_impacts, output.opening);
   assign_zones(result.sub_impacts, output.zone_gap * used.first_period,
                output.subzone_gap * used.first_period);
 
-  warn_of_short_contacts(recorder, used, result);
   count_work(integrator, beam, loop, result.work);
   if (result.outcome.kind == OutcomeKind::inaccurate && audit.gained_energy() &&
       loop.energy_keeps_growing()) {

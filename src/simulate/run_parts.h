@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ode/integrator.h"
-#include "simulate/event_loop.h"
+#include "simulate/loop/event_loop.h"
 #include "subimpact/simulate/simulate.h"
 #include "system/struck_beam.h"
 
@@ -89,7 +89,6 @@ double available_memory(const std::filesystem::path& root = "/");
 
 /// For a mesh that is made for one step of central differences: not for another method, settings
 /// that would change the step, or a contact too stiff for it.
-void check_natural_step(const Options& options, const ResolvedSettings& used);
 
 /// The given table, or the first one of the method; none for a method without tables.
 std::optional<std::string> table_used(const Options& options);

@@ -4,10 +4,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "model/modal_mesh.h"
-#include "simulate/recorder.h"
-#include "simulate/refuse.h"
+#include "model/mesh/modal_mesh.h"
+#include "simulate/records/recorder.h"
 #include "simulate/run_parts.h"
+#include "simulate/settings/refuse.h"
 
 namespace subimpact {
 namespace {
@@ -167,7 +167,8 @@ void set_start(const Problem& problem, StruckBeam& beam) {
 
 void exchange(Snapshot& snapshot, SubImpact& s) {
   snapshot(s.start, s.end, s.peak_force, s.peak_time, s.impulse, s.force_integral,
-           s.max_indentation, s.residual_indentation, s.striker_velocity, s.start_rate, s.end_rate);
+           s.max_indentation, s.residual_indentation, s.striker_velocity, s.start_rate, s.end_rate,
+           s.opening);
 }
 void exchange(Snapshot& snapshot, Result::Velocities& at) {
   snapshot(at.time, at.striker, at.beam);
@@ -186,7 +187,8 @@ void exchange(Snapshot& snapshot, SampledPeak& peak) {
   snapshot(peak.shared, peak.largest, peak.before, peak.after, peak.last, peak.is_last);
 }
 void exchange(Snapshot& snapshot, FieldPeaks& peaks) {
-  snapshot(peaks.displacement, peaks.moment, peaks.strain);
+  snapshot(peaks.displacement, peaks.moment, peaks.strain, peaks.reaction_along,
+           peaks.reaction_against);
 }
 void exchange(Snapshot& snapshot, EnvelopeRow& row) {
   snapshot(row.position, row.displacement, row.moment, row.strain, row.plastic_curvature);
@@ -207,7 +209,7 @@ void Recorder::exchange(Snapshot& snapshot, double time) {
            result_.first_section_yield, result_.first_contact_yield, result_.largest_rotation,
            result_.largest_displacement, result_.first_touch, result_.parting, in_contact_,
            velocity_at_start_, beam_impulse_at_start_, largest_force_, steps_in_contact_,
-           near_misses_, envelope, result_.peaks);
+           near_misses_, envelope, result_.peaks, result_.reactions[0], result_.reactions[1]);
   snapshot.require(steps_in_contact_.size() == result_.sub_impacts.size() &&
                    (!in_contact_ || !steps_in_contact_.empty()));
   if (!snapshot.reads()) return;

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
-#include "system/accounts.h"
+#include "system/readings/accounts.h"
 
 namespace subimpact {
 
@@ -75,6 +76,39 @@ void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double s
     here.subzone = subzone;
     previous = &here;
   }
+}
+
+void join_sub_impacts(std::vector<SubImpact>& sub_impacts, double opening) {
+  std::size_t n = 0;  // of those kept so far
+  for (SubImpact& here : sub_impacts) {
+    SubImpact* last = n > 0 ? &sub_impacts[n - 1] : nullptr;
+    if (last == nullptr || !(last->opening.value_or(HUGE_VAL) < opening)) {
+      if (&sub_impacts[n] != &here) sub_impacts[n] = std::move(here);
+      ++n;
+      continue;
+    }
+    SubImpact joined = here;  // with its end, and what is left then
+    joined.start = last->start;
+    joined.start_rate = last->start_rate;
+    joined.impulse += last->impulse;
+    joined.force_integral += last->force_integral;
+    joined.max_indentation = std::max(joined.max_indentation, last->max_indentation);
+    joined.inner_opening = std::max(
+        {*last->opening, last->inner_opening.value_or(0.0), joined.inner_opening.value_or(0.0)});
+    if (last->peak_force >= joined.peak_force) {
+      joined.peak_force = last->peak_force;
+      joined.peak_time = last->peak_time;
+    }
+    *last = std::move(joined);
+  }
+  sub_impacts.resize(n);
+}
+
+std::size_t n_parted_by(double opening, const std::vector<SubImpact>& sub_impacts) {
+  if (sub_impacts.empty()) return 0;
+  return 1 + static_cast<std::size_t>(std::count_if(
+                 sub_impacts.begin(), sub_impacts.end() - 1,
+                 [&](const SubImpact& s) { return s.opening.value_or(HUGE_VAL) >= opening; }));
 }
 
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts) {

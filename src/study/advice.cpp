@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "case/meshes.h"
-#include "study/refinement.h"
+#include "study/refinement/refinement.h"
 
 namespace subimpact {
 namespace {
@@ -87,7 +87,8 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
                      "continues on finer meshes"});
     }
   }
-  if (!result.contact_over) {
+  const bool may_have_more = estimate && estimate->doubt_after(result.sub_impacts.size() - 1);
+  if (!result.contact_over && !(may_have_more && result.no_more_contact)) {
     all.push_back({{{"--set", fmt::format("time.end={:.4g}", times_longer * input.end_time)}},
                    times_longer * result.work.all_seconds,
                    "shows whether contact is over"});

@@ -7,7 +7,7 @@
 #include "case/problem.h"
 #include "study/method_choice.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/study/judgement.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {
@@ -76,6 +76,8 @@ Case with_contact_law(const Case& input, const std::string& name) {
         std::pair("contact.yield_pressure", &contact.yield_pressure)}) {
     if (!uses_key(way, key)) constant->reset();
   }
+  if (!uses_key(way, "contact.yield_pressure")) contact.pressure_by_depth = false;
+  if (contact.kind == ContactKind::line) contact.indentation.reset();
   return other;
 }
 

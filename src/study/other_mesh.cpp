@@ -7,7 +7,7 @@
 
 #include "case/meshes.h"
 #include "case/problem.h"
-#include "simulate/methods.h"
+#include "simulate/settings/methods.h"
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {
@@ -65,8 +65,7 @@ std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
     other.solver.step.reset();
     const ResolvedSettings used = resolve(other).settings();
     const double largest = default_part_of_critical * used.critical_step;
-    other.solver.step =
-        std::min({*input.solver.step, largest, used.natural_step.value_or(largest)});
+    other.solver.step = std::min(*input.solver.step, largest);
     if (*other.solver.step < *input.solver.step) {
       refined_run.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
     }

@@ -230,6 +230,13 @@ class Search {
   std::vector<double> measured_bins_;
 };
 
+void refuse_flat(const Signal& signal, const char* whose, const char* remedy) {
+  const auto [low, high] = std::ranges::minmax(signal.forces);
+  if (high > 0.0 && high >= -low) return;
+  throw ResultsError(
+      fmt::format("the {} force lies between {:.4g} and {:.4g} N; {}", whose, low, high, remedy));
+}
+
 }  // namespace
 
 Signal low_passed(const Signal& force, double cutoff) {
@@ -271,12 +278,6 @@ Overlay overlay_of(const std::vector<HistoryRow>& history, const Signal& measure
   if (history.size() < 2) {
     throw ResultsError("the run kept no history; run it again with output.interval above 0");
   }
-  const auto refuse_flat = [](const Signal& signal, const char* whose, const char* remedy) {
-    const auto [low, high] = std::ranges::minmax(signal.forces);
-    if (high > 0.0 && high >= -low) return;
-    throw ResultsError(
-        fmt::format("the {} force lies between {:.4g} and {:.4g} N; {}", whose, low, high, remedy));
-  };
   refuse_flat(computed, "computed",
               "a run without contact has no force to compare with a measurement");
   refuse_flat(measured, "measured",

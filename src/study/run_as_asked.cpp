@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "case/meshes.h"
-#include "study/mesh_resolution.h"
-#include "study/totals.h"
-#include "subimpact/study/judgement.h"
+#include "study/judgement/mesh_resolution.h"
+#include "study/judgement/totals.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {
@@ -112,12 +112,12 @@ StrikeRow row_of(int strike, const WithinRun& run) {
   StrikeRow row;
   row.strike = strike;
   row.sub_impacts = result.sub_impacts.size();
-  row.restitution = result.restitution.value_or(NAN);
+  row.restitution = result.restitution;
   row.striker_velocity = result.striker_velocity;
   row.peak_force = result.max_force;
   row.impulse = result.impulse();
   row.dent = result.sub_impacts.back().residual_indentation;
-  row.permanent_set = largest_magnitude(result.envelope, &EnvelopeRow::permanent_set);
+  row.permanent_set = largest_magnitude(result.envelope, &EnvelopeRow::set_from_supports);
   row.hinge_rotation = largest_magnitude(result.plastic_zones, &PlasticZone::rotation);
   row.striker_energy = end.striker;
   row.vibration = end.beam_kinetic + end.bending_elastic;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "case/problem.h"
-#include "simulate/methods.h"
+#include "simulate/settings/methods.h"
 #include "study/method_choice.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"

@@ -34,7 +34,9 @@ void Loads::begin_piece(double t) {
   next_corner_ = std::numeric_limits<double>::infinity();
   for (Point& point : points_) {
     const auto& table = point.table;
-    while (point.next < table.size() && table[point.next].first <= t) ++point.next;
+    // A corner within the rounding of the table's times is passed at once, as a jump is.
+    const double now = t + 4.0 * std::numeric_limits<double>::epsilon() * table.back().first;
+    while (point.next < table.size() && table[point.next].first <= now) ++point.next;
     const bool last = point.next == table.size();
     if (!last) next_corner_ = std::min(next_corner_, table[point.next].first);
     point.rate = 0.0;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "numerics/snapshot.h"
-#include "subimpact/model/beam_mesh.h"
+#include "subimpact/model/mesh/beam_mesh.h"
 #include "subimpact/model/scene.h"
 
 namespace subimpact {

@@ -1,22 +1,10 @@
 #include "system/struck_beam.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <utility>
 
-#include "model/mixed_sections.h"
-#include "ode/integrator.h"
-
 namespace subimpact {
-namespace {
-
-[[noreturn]] void fail_to_flow() {
-  throw IntegrationFailure(std::numeric_limits<double>::quiet_NaN(), "the bending law",
-                           "no convergence", "sections that flow found no equilibrium");
-}
-
-}  // namespace
 
 StruckBeam::StruckBeam(StruckBeamParts parts)
     : mesh_(std::move(parts.mesh)),
@@ -43,41 +31,6 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       std::pow(mass / (stiffness * std::pow(velocity, exponent - 1.0)), 1.0 / (exponent + 1.0));
   scales_ = {velocity * contact_time, velocity};
   if (!sections_.can_yield()) use_modes();
-  if (const auto* mesh = dynamic_cast<const MixedMesh*>(mesh_.get())) {
-    mixed_ = std::make_unique<MixedSections>(
-        *mesh, sections_.stiffness(),
-        sections_.can_yield() ? std::optional(sections_.law()) : std::nullopt);
-    mixed_is_at_.assign(n_, 0.0);
-  }
-}
-
-StruckBeam::StruckBeam(StruckBeam&&) noexcept = default;
-StruckBeam& StruckBeam::operator=(StruckBeam&&) noexcept = default;
-StruckBeam::~StruckBeam() = default;
-
-std::size_t StruckBeam::n_yielded_sections() const {
-  return mixed_ ? mixed_->n_yielded() : sections_.n_yielded();
-}
-
-double StruckBeam::flow_work() const { return mixed_ ? mixed_->flow_work() : 0.0; }
-
-bool StruckBeam::settle(std::span<double> positions) {
-  if (!mixed_) return false;
-  const auto unknowns = positions.first(n_);
-  if (!mixed_->settle(unknowns)) fail_to_flow();
-  std::ranges::copy(unknowns, mixed_is_at_.begin());
-  return mixed_->flows();
-}
-
-MixedSections& StruckBeam::bring_mixed_to(std::span<const double> unknowns) const {
-  if (std::memcmp(unknowns.data(), mixed_is_at_.data(), n_ * sizeof(double)) == 0) return *mixed_;
-  std::ranges::copy(unknowns, mixed_is_at_.begin());
-  if (!mixed_->evaluate(unknowns)) fail_to_flow();
-  return *mixed_;
-}
-
-const MixedSections* StruckBeam::mixed_at(std::span<const double> y) const {
-  return mixed_ ? &bring_mixed_to(beam_positions(y)) : nullptr;
 }
 
 void StruckBeam::use_modes() {
@@ -128,11 +81,6 @@ State StruckBeam::state_before_touch(double time) const {
 void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces) {
   if (!modal_stiffness_.empty()) {
     for (std::size_t i = 0; i < n_; ++i) forces[i] = -modal_stiffness_[i] * unknowns[i];
-    return;
-  }
-  if (mixed_) {
-    const MixedSections& mixed = bring_mixed_to(unknowns);
-    mixed.mesh().forces_of(mixed.elastic_curvatures().data(), sections_.stiffness(), forces.data());
     return;
   }
   mesh_->curvatures(unknowns, curvatures_);
@@ -304,7 +252,6 @@ EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
 bool StruckBeam::commit(const State& y) {
   if (contact_.loads()) contact_.commit(indentation(y));
   if (!sections_.can_yield()) return false;
-  if (mixed_) return bring_mixed_to(beam_positions(y)).commit(contact_force(y));
   if (section_evaluation_ == Evaluation::smooth) {
     read_motion(y, committed_);
     return sections_.commit(committed_.curvatures, committed_.rates) > 0;
@@ -314,7 +261,7 @@ bool StruckBeam::commit(const State& y) {
 }
 
 bool StruckBeam::commit_evaluated(const State& y) {
-  if (section_evaluation_ == Evaluation::smooth || mixed_) return commit(y);
+  if (section_evaluation_ == Evaluation::smooth) return commit(y);
   if (contact_.loads()) contact_.commit(indentation(y));
   return sections_.commit(outside_) > 0;
 }
@@ -322,100 +269,6 @@ bool StruckBeam::commit_evaluated(const State& y) {
 BeamJacobian& StruckBeam::jacobian() const {
   if (!jacobian_) jacobian_ = std::make_unique<BeamJacobian>(*mesh_, striker_mass_);
   return *jacobian_;
-}
-
-BeamJacobian::BeamJacobian(const BeamMesh& mesh, double striker_mass)
-    : mesh_(mesh),
-      striker_mass_(striker_mass),
-      n_(mesh.n_unknowns()),
-      bending_(n_, std::max({mesh.mass().half_bandwidth(), mesh.stiffness_bandwidth(),
-                             mesh.struck_point().terms.size() - 1})) {
-  std::vector<double> gradient(n_ + 1, 0.0);
-  for (const SparseFunctional::Term& term : mesh.struck_point().terms) {
-    gradient[term.unknown] = -term.coefficient;
-  }
-  gradient[n_] = 1.0;
-  const auto add = [&](std::size_t i, std::size_t j) {
-    const bool of_stop = i == n_ && std::isinf(striker_mass_);
-    const double coefficient = of_stop ? 0.0 : gradient[i] * gradient[j];
-    if (coefficient != 0.0) contact_entries_.push_back({pattern_.n_entries(), coefficient});
-    pattern_.rows.push_back(i);
-  };
-  const auto end_column = [&] { pattern_.column_starts.push_back(pattern_.n_entries()); };
-  const std::size_t bandwidth = bending_.half_bandwidth();
-  for (std::size_t j = 0; j < n_; ++j) {
-    const std::size_t last = std::min(n_ - 1, j + bandwidth);
-    for (std::size_t i = j > bandwidth ? j - bandwidth : 0; i <= last; ++i) add(i, j);
-    if (gradient[j] != 0.0) add(n_, j);
-    end_column();
-  }
-  for (std::size_t i = 0; i <= n_; ++i) {
-    if (gradient[i] != 0.0) add(i, n_);
-  }
-  end_column();
-}
-
-// The striker's row and column become zero.
-void BeamJacobian::copy_band(const BandedMatrix& band, std::span<double> values) const {
-  for (std::size_t j = 0; j <= n_; ++j) {
-    for (std::size_t k = pattern_.column_starts[j]; k < pattern_.column_starts[j + 1]; ++k) {
-      const std::size_t i = pattern_.rows[k];
-      values[k] = i < n_ && j < n_ ? band(i, j) : 0.0;
-    }
-  }
-}
-
-void BeamJacobian::mass_entries(std::span<double> values) const {
-  copy_band(mesh_.mass(), values);
-  values[pattern_.n_entries() - 1] = std::isinf(striker_mass_) ? 1.0 : striker_mass_;
-}
-
-void BeamJacobian::stiffness_entries(std::span<const double> tangents, double contact_slope,
-                                     std::span<double> values) {
-  bending_.set_zero();
-  mesh_.add_stiffness(tangents, bending_);
-  copy_band(bending_, values);
-  add_contact(contact_slope, values);
-}
-
-void BeamJacobian::add_contact(double slope, std::span<double> values) const {
-  for (const ContactEntry& entry : contact_entries_) {
-    values[entry.position] += slope * entry.coefficient;
-  }
-}
-
-ModalBeam::ModalBeam(const StruckBeam& beam) : beam_(beam) {
-  const auto& mesh = dynamic_cast<const ModalMesh&>(beam.mesh());
-  frequencies_.assign(mesh.frequencies().begin(), mesh.frequencies().end());
-  for (const SparseFunctional::Term& term : mesh.struck_point().terms) {
-    loads_.push_back(term.coefficient / mesh.mass().at(term.unknown, term.unknown));
-    displacements_.push_back(-term.coefficient);
-  }
-  if (!beam.damping().is_none()) {
-    for (const double damping : beam.modal_damping()) decay_rates_.push_back(0.5 * damping);
-    decay_rates_.push_back(0.0);  // the striker
-  }
-  frequencies_.push_back(0.0);
-  loads_.push_back(-1.0 / beam.striker_mass());  // 0 of a stop
-  displacements_.push_back(1.0);
-}
-
-ForcedOscillators::Loads ModalBeam::loads_from(double t0) {
-  const subimpact::Loads& loads = beam_.loads();
-  if (loads.is_empty()) return {};
-  const std::size_t n = beam_.mesh().n_unknowns();
-  accelerations_.assign(n + 1, beam_.striker_load());
-  rates_.assign(n + 1, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double mass = beam_.mesh().mass().at(i, i);
-    rates_[i] = loads.rate()[i] / mass;
-    accelerations_[i] = loads.value()[i] / mass + (t0 - loads.start()) * rates_[i];
-  }
-  return {accelerations_, rates_};
-}
-
-ForcedOscillators::Force ModalBeam::force(double lambda) const {
-  return {beam_.contact().force(lambda), beam_.contact().slope(lambda)};
 }
 
 }  // namespace subimpact

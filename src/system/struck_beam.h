@@ -6,19 +6,18 @@
 #include <span>
 #include <vector>
 
-#include "model/modal_mesh.h"
-#include "model/section_field.h"
+#include "model/mesh/modal_mesh.h"
+#include "model/section/section_field.h"
 #include "numerics/mass_solver.h"
 #include "numerics/snapshot.h"
 #include "ode/second_order_ode.h"
-#include "subimpact/model/beam_mesh.h"
+#include "subimpact/model/mesh/beam_mesh.h"
 #include "subimpact/model/scene.h"
-#include "system/contact_state.h"
+#include "system/beam_jacobian.h"
+#include "system/contact/contact_state.h"
 #include "system/loads.h"
 
 namespace subimpact {
-
-class MixedSections;
 
 struct StruckBeamParts {
   std::shared_ptr<const BeamMesh> mesh;
@@ -52,41 +51,6 @@ struct SectionMotion {
   explicit SectionMotion(std::size_t n_sections) : curvatures(n_sections), rates(n_sections) {}
 };
 
-/// Mass and tangent stiffness of a struck beam as sparse matrices of one pattern, the striker being
-/// the last unknown:
-///
-///     Mass = [beam's mass, 0; 0, m],   K = [B^T W diag(tangent) B, 0; 0, 0] + dF/dlambda g g^T,
-///
-/// of a stop with 1 in place of m and without the striker's row of g g^T, so that it stays at rest;
-/// with g = [-S; 1] the gradient of the indentation. The pattern is the beam's band, a row and a
-/// column that couple the striker to the unknowns under it, and the striker's diagonal entry.
-class BeamJacobian {
- public:
-  BeamJacobian(const BeamMesh& mesh, double striker_mass);
-
-  const SparsityPattern& pattern() const { return pattern_; }
-  void mass_entries(std::span<double> values) const;
-  /// `tangents` = dM/dkappa (N m2) of the sections; `contact_slope` = dF/dlambda (N/m).
-  void stiffness_entries(std::span<const double> tangents, double contact_slope,
-                         std::span<double> values);
-  /// Adds slope g g^T.
-  void add_contact(double slope, std::span<double> values) const;
-
- private:
-  void copy_band(const BandedMatrix& band, std::span<double> values) const;
-
-  const BeamMesh& mesh_;
-  double striker_mass_;
-  std::size_t n_;  // unknowns of the beam
-  BandedMatrix bending_;
-  SparsityPattern pattern_;
-  struct ContactEntry {
-    std::size_t position;  // in the pattern
-    double coefficient;
-  };
-  std::vector<ContactEntry> contact_entries_;  // g g^T
-};
-
 /// The equations of motion of the struck beam: smooth between events, with histories that only
 /// `commit` advances.
 ///
@@ -103,14 +67,8 @@ class BeamJacobian {
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
-  StruckBeam(StruckBeam&&) noexcept;
-  StruckBeam& operator=(StruckBeam&&) noexcept;
-  ~StruckBeam() override;
 
   std::size_t n_positions() const override { return n_ + 1; }
-  /// On mixed cells only: adds the displacement due to flow. Throws IntegrationFailure.
-  bool settle(std::span<double> positions) override;
-  bool settles() const override { return mixed_ && sections_.can_yield(); }
   void acceleration(std::span<const double> positions, std::span<double> result) override;
   bool depends_on_velocity() const override { return depends_on_velocity_; }
   void acceleration_at(std::span<const double> y, std::span<double> result) override;
@@ -127,10 +85,7 @@ class StruckBeam final : public MechanicalSystem {
   const BeamMesh& mesh() const { return *mesh_; }
   const SectionField& sections() const { return sections_; }
   /// Sections in which any fibre has flowed.
-  std::size_t n_yielded_sections() const;
-  /// Bending on mixed cells at a state's positions; null on other meshes. Throws
-  /// IntegrationFailure.
-  const MixedSections* mixed_at(std::span<const double> y) const;
+  std::size_t n_yielded_sections() const { return sections_.n_yielded(); }
   const ContactState& contact() const { return contact_; }
   ContactState& contact() { return contact_; }
   const MassSolver& mass_solver() const { return *mass_solver_; }
@@ -222,10 +177,8 @@ class StruckBeam final : public MechanicalSystem {
   long n_accelerations() const { return n_accelerations_; }
   /// Evaluations of the bending forces alone or with the contact force, without a mass solve.
   long n_forces() const { return n_forces_; }
-  double flow_work() const;  ///< of mixed cells, in evaluations of a cell's acceleration
 
  private:
-  MixedSections& bring_mixed_to(std::span<const double> unknowns) const;
   // forces = -B^T W M - K_s w.
   void bend(std::span<const double> unknowns, std::span<double> forces);
   // Adds the forces of the beam's damping, all or those of beta.
@@ -240,8 +193,6 @@ class StruckBeam final : public MechanicalSystem {
 
   std::shared_ptr<const BeamMesh> mesh_;
   SectionField sections_;
-  std::unique_ptr<MixedSections> mixed_;     // sections_ keeps no history then
-  mutable std::vector<double> mixed_is_at_;  // unknowns
   ContactState contact_;
   std::unique_ptr<MassSolver> mass_solver_;
   std::size_t n_;
@@ -272,30 +223,6 @@ class StruckBeam final : public MechanicalSystem {
   SectionMotion committed_;
   State start_;  // none: straight and at rest
   Spent spent_;
-};
-
-/// A struck beam on a modal mesh, as oscillators driven by the contact force; the striker is
-/// the last of them. Only while no section flows.
-class ModalBeam final : public ForcedOscillators {
- public:
-  /// `beam`'s mesh must be a ModalMesh (std::bad_cast otherwise); both must outlive this.
-  explicit ModalBeam(const StruckBeam& beam);
-
-  std::span<const double> frequencies() const override { return frequencies_; }
-  std::span<const double> decay_rates() const override { return decay_rates_; }
-  std::span<const double> loads() const override { return loads_; }
-  std::span<const double> displacements() const override { return displacements_; }
-  Force force(double lambda) const override;
-  bool has_loads() const override { return !beam_.loads().is_empty(); }
-  Loads loads_from(double t0) override;
-  bool is_free() const override { return !beam_.contact().is_closed(); }
-  double critical_displacement() const override { return beam_.contact().residual_indentation(); }
-  SecondOrderOde::Scales scales() const override { return beam_.scales(); }
-
- private:
-  const StruckBeam& beam_;
-  std::vector<double> frequencies_, decay_rates_, loads_, displacements_;
-  std::vector<double> accelerations_, rates_;  // of loads_from()
 };
 
 }  // namespace subimpact

@@ -360,8 +360,6 @@ STUDIES = {
                       "2e-7,10,10,9,2.5e-7\n3e-7,10,10,7,2.5e-7\n"}, ""),
     "layers": ({"layers.csv": "layers,sub_impacts,exact_sub_impacts,corresponding,median_difference_s,max_difference_s\n"
                 "20,9,9,9,2.1e-7,2.6e-7\n40,9,9,9,1.9e-7,2.2e-7\n"}, ""),
-    "plan": ({"plan.csv": "sequence,error_s,counted_work,verdict,admitted,cheapest\n"
-              "cells,2.1e-7,2.2e6,right,1,1\ncells,2.6e-7,2.1e6,right,1,0\n"}, "wanted_us = 0.22\nreference_us = 0.5\n"),
     "work_precision": ({}, "labels = \"'elastic'\"\ncost_label = 'wall time (ms)'\nwidth = 770\n$points << EOD\n"
                        "panel,method,mark,error_us,cost\n1,erk,right,0.21,2.2\n1,erk,right,0.26,2.1\nEOD\n"),
 }

@@ -1,7 +1,7 @@
 // Momentum and energy at every accepted step, and in the rows of history.csv.
 
 #include "paper_case.h"
-#include "simulate/event_loop.h"
+#include "simulate/loop/event_loop.h"
 #include "simulate/run_parts.h"
 
 namespace subimpact {
@@ -114,7 +114,11 @@ struct ShapedStrike {
   const char* name;
   ContactKind law;
   CrossSection section;
+  IndentationFrom indentation = IndentationFrom::half_space;
+  bool by_depth = false;
 };
+
+const CrossSection rectangle{.shape = SectionShape::rectangle, .height = 0.0075, .width = 0.0163};
 
 const ShapedStrike laws[] = {
     {"foundation on a circle",
@@ -129,9 +133,12 @@ const ShapedStrike laws[] = {
     {"sphere on an I",
      ContactKind::sphere,
      {.shape = SectionShape::i, .height = 0.014, .width = 0.012, .flange = 0.002, .web = 0.0015}},
-    {"sphere on a rectangle",
-     ContactKind::sphere,
-     {.shape = SectionShape::rectangle, .height = 0.0075, .width = 0.0163}},
+    {"sphere on a rectangle", ContactKind::sphere, rectangle},
+    {"sphere from the mid-plane", ContactKind::sphere, rectangle, IndentationFrom::mid_plane},
+    {"sphere by depth", ContactKind::sphere, rectangle, IndentationFrom::mid_plane, true},
+    {"hertz from the mid-plane", ContactKind::hertz, rectangle, IndentationFrom::mid_plane},
+    {"line", ContactKind::line, rectangle, IndentationFrom::mid_plane},
+    {"line by depth", ContactKind::line, rectangle, IndentationFrom::mid_plane, true},
 };
 
 TEST(ConservationOfShapes, HoldsForEveryLawWithAndWithoutHardening) {
@@ -146,6 +153,8 @@ TEST(ConservationOfShapes, HoldsForEveryLawWithAndWithoutHardening) {
         beam.hardening = hardening;
         Contact& contact = input.scene.contact;
         contact.kind = strike.law;
+        contact.indentation = strike.indentation;
+        contact.pressure_by_depth = strike.by_depth;
         if (strike.law == ContactKind::linear) {
           contact.stiffness = 2e7;
         } else if (strike.law != ContactKind::foundation) {

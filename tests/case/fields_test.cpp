@@ -1,28 +1,13 @@
-// Fields along the beam over whole runs: energy of shapes, supports' momentum, points against
-// modal sums, permanent set.
+// Fields along the beam over whole runs: energy of shapes, supports' momentum, permanent set.
 
-#include <Eigen/Dense>
+#include <fmt/ranges.h>
 
 #include "case/problem.h"
+#include "linear_case.h"
 #include "order_table.h"
-#include "paper_case.h"
 
 namespace subimpact {
 namespace {
-
-constexpr double third = 1.0 / 3.0;
-
-Case linear_case(MeshKind mesh, int n, double position, EndSupport end) {
-  Case input = paper_case(SectionKind::elastic, 0.5e-3);
-  input.scene.contact = {ContactKind::linear, 2e6, {}, {}, {}};
-  input.scene.striker.position = position;
-  input.scene.beam.ends = {end, end};
-  input.model.mesh = mesh;
-  (mesh == MeshKind::cells ? input.model.segments : input.model.elements) = n;
-  input.solver.method = Method::nystrom;
-  input.solver.rtol = 1e-11;
-  return input;
-}
 
 // The rows of each shape.
 std::map<double, std::vector<ShapeRow>> shapes_of(const Result& result) {
@@ -343,6 +328,31 @@ TEST(Reactions, CloseTheBalanceOfMomentumOfSupportedBeams) {
   }
 }
 
+TEST(Reactions, HaveTheirExtremesInTheResultAndAWarningWhereASupportPulls) {
+  for (const EndSupport end : {pinned, clamped}) {
+    for (const double interval : {1e-6, 0.0}) {
+      Case input = linear_case(MeshKind::hermite, 30, third, end);
+      input.output.interval = interval;
+      if (interval == 0.0) input.output.shapes = 1e-6;
+      const Result result = completed(input);
+      double least = 0.0, largest = 0.0;
+      for (const HistoryRow& row : result.history) {
+        least = std::min({least, *row.first_reaction, *row.last_reaction});
+        largest = std::max({largest, *row.first_reaction, *row.last_reaction});
+      }
+      ASSERT_TRUE(result.reactions[0] && result.reactions[1]);
+      const auto& [first, last] = result.reactions;
+      EXPECT_LE(std::min(first->smallest.value, last->smallest.value), least);
+      EXPECT_GE(std::max(first->largest.value, last->largest.value), largest);
+      EXPECT_GT(largest, interval > 0.0 ? 0.0 : -1.0) << "waves lift the ends first";
+      const std::string warnings = fmt::format("{}", fmt::join(result.warnings, "\n"));
+      EXPECT_EQ(warnings.find("pulls the beam by up to") != std::string::npos, end == pinned);
+    }
+  }
+  Case free = linear_case(MeshKind::hermite, 30, third, EndSupport::free);
+  EXPECT_FALSE(completed(free).reactions[0]);
+}
+
 TEST(Reactions, ChangePlacesWithTheEnds) {
   Case input = linear_case(MeshKind::hermite, 30, third, clamped);
   input.output.interval = 1e-5;
@@ -367,97 +377,6 @@ TEST(Reactions, AreNoneAtFreeEnds) {
     EXPECT_FALSE(row.first_reaction);
     EXPECT_FALSE(row.last_reaction);
   }
-}
-
-// --- points --------------------------------------------------------------------------------------
-
-// Striker, linear spring and modes of a pinned beam, sin(n pi x/l), as one eigenproblem; valid up
-// to the end of the first contact. The first modes move, the others follow the force as at rest:
-// they are a spring in series with that of the contact.
-class ModalSum {
-  // Rounding of squared frequencies, relative to the largest, must not reach the smallest.
-  using Real = long double;
-  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-
- public:
-  ModalSum(const Scene& scene, Eigen::Index n_modes)
-      : n_(n_modes), scene_(scene), length_(scene.beam.length) {
-    const Beam& beam = scene.beam;
-    Vector root_mass(n_ + 1);
-    Matrix stiffness = Matrix::Zero(n_ + 1, n_ + 1);
-    indentation_.resize(n_ + 1);
-    for (Eigen::Index k = 0; k < n_; ++k) {
-      const Real b = wave(k);
-      const Real mass = beam.mass_per_length() + beam.rotary_inertia() * b * b;
-      root_mass(k) = std::sqrt(mass * length_ / 2);
-      stiffness(k, k) = modal_stiffness(k);
-      indentation_(k) = -std::sin(b * scene.striker.position * length_);
-    }
-    root_mass(n_) = std::sqrt(scene.striker.mass);
-    indentation_(n_) = 1.0;
-    spring_ = 1 / (1 / Real(*scene.contact.stiffness) +
-                   compliance_of_rest(scene.striker.position * length_));
-    stiffness += spring_ * indentation_ * indentation_.transpose();
-    const Vector inverse = root_mass.cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(inverse.asDiagonal() * stiffness *
-                                                       inverse.asDiagonal());
-    frequencies_ = solver.eigenvalues().cwiseSqrt();
-    shapes_ = inverse.asDiagonal() * solver.eigenvectors();
-    rates_ = solver.eigenvectors().row(n_).transpose() * root_mass(n_) * scene.striker.velocity;
-  }
-  double displacement(double x, double t) const {
-    const Vector amplitudes =
-        rates_.array() * (frequencies_.array() * Real(t)).sin() / frequencies_.array();
-    const Vector unknowns = shapes_ * amplitudes;
-    Real sum = spring_ * indentation_.dot(unknowns) * compliance_of_rest(x);
-    for (Eigen::Index k = 0; k < n_; ++k) sum += std::sin(wave(k) * x) * unknowns(k);
-    return static_cast<double>(sum);
-  }
-
- private:
-  Real wave(Eigen::Index k) const {
-    return static_cast<Real>(k + 1) * std::numbers::pi_v<Real> / length_;
-  }
-  Real modal_stiffness(Eigen::Index k) const {
-    return scene_.beam.bending_stiffness() * std::pow(wave(k), 4) * length_ / 2;
-  }
-  // Displacement at x by a force of 1 N at the strike, of the modes beyond the first n.
-  Real compliance_of_rest(Real x) const {
-    const Real struck_at = scene_.striker.position * length_;
-    Real sum = 0.0;
-    for (Eigen::Index k = n_; k < 20 * n_; ++k) {
-      sum += std::sin(wave(k) * x) * std::sin(wave(k) * struck_at) / modal_stiffness(k);
-    }
-    return sum;
-  }
-
-  Eigen::Index n_;
-  Scene scene_;
-  Real length_, spring_;
-  Vector indentation_, frequencies_, rates_;
-  Matrix shapes_;
-};
-
-TEST(APoint, MovesAsAModalSumOfAPinnedBeamStruckAtAThird) {
-  Case input = linear_case(MeshKind::hermite, 900, third, pinned);
-  input.scene.contact.stiffness = 1e5;
-  input.solver.method = Method::exponential;
-  input.solver.rtol = 1e-12;
-  input.output.interval = 2e-5;
-  input.output.points = {0.5, 0.1};
-  const Result result = completed(input);
-  const double end = result.end_of(result.sub_impacts.front());
-  ASSERT_GT(end, 1e-4);
-  const ModalSum sum(input.scene, 240);
-  double largest = 0.0, error = 0.0;
-  for (const PointRow& row : result.point_history) {
-    if (row.time > end) break;
-    const double expected = sum.displacement(row.position, row.time);
-    largest = std::max(largest, std::abs(expected));
-    error = std::max(error, std::abs(row.displacement - expected));
-  }
-  EXPECT_LT(error, 1e-8 * largest);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include "paper_run.h"
 #include "print.h"
 #include "runs.h"
@@ -21,7 +23,7 @@ struct ReferenceEvent {
 
 /// A table of tests/data.
 inline std::vector<ReferenceEvent> reference_table(const std::string& name) {
-  std::ifstream file(std::string(SUBIMPACT_TEST_DATA) + "/" + name + ".csv");
+  std::ifstream file(fmt::format("{}/{}.csv", SUBIMPACT_TEST_DATA, name));
   std::vector<ReferenceEvent> table;
   std::string line;
   std::getline(file, line);  // column names

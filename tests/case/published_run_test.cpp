@@ -1,5 +1,5 @@
 // The run of the struck-beam paper: 501 points 1/500 of the length apart, 40 layers, 0.1 us. Its
-// printed numbers are met within a unit of their last digit (validation/paper/as_computed).
+// printed numbers are met within a unit of their last digit (validation/physics/paper/as_computed).
 
 #include "paper_case.h"
 

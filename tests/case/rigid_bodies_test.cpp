@@ -69,6 +69,25 @@ TEST(RigidBodies, ComeOutTheSameByEveryMethod) {
   }
 }
 
+TEST(RigidBodies, HaveNoRestitutionWhileTheyTouchOrApproach) {
+  Case input = rigid_case(ContactKind::linear, 1.0);
+  const double end = simulate(input).sub_impacts.at(0).end.value();
+  for (const double part : {0.2, 0.9, 1.1}) {
+    input.end_time = part * end;
+    EXPECT_EQ(simulate(input).restitution.has_value(), part > 1.0) << part;
+  }
+  input.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};  // it swings ahead, and back
+  input.model.mesh = MeshKind::hermite;
+  input.scene.striker.mass = 20.0;
+  input.end_time = 2e-3;
+  const Result longer = simulate(input);
+  ASSERT_GE(longer.sub_impacts.size(), 2u);
+  input.end_time = 0.5 * (*longer.sub_impacts[0].end + longer.sub_impacts[1].start);
+  const Result result = simulate(input);
+  EXPECT_GT(result.parting.striker, 0.0);
+  EXPECT_FALSE(result.restitution);
+}
+
 // Thornton's closed form, from just above the yield velocity to a thousand times it.
 TEST(RigidBodies, WithASphereThatYieldsHaveThorntonsRestitution) {
   const double most_relative = 1e-9;

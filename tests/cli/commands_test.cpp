@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "io/run_tables.h"
+#include "io/records/run_tables.h"
 #include "process.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/read_results.h"
@@ -14,16 +14,15 @@ using ARun = InADirectory;
 using SensitivityCommand = InADirectory;
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
-  for (const std::string command : {"run", "work-precision", "stability", "plan", "sensitivity",
-                                    "plot", "report", "explain", "methods", "keys", "columns"}) {
+  for (const std::string command : {"run", "work-precision", "stability", "sensitivity", "plot",
+                                    "report", "explain", "methods", "keys", "columns"}) {
     expect_in(run_anywhere({command, "--help"}).output, "Example", "\n  subimpact " + command);
   }
 }
 
 TEST(Listings, NameWhatThereIs) {
-  expect_in(run_anywhere({"--help"}).output, "run", "work-precision", "stability", "plan",
-            "sensitivity", "plot", "report", "explain", "methods", "keys", "columns",
-            "Examples:", "Exit status");
+  expect_in(run_anywhere({"--help"}).output, "run", "work-precision", "stability", "sensitivity",
+            "plot", "report", "explain", "methods", "keys", "columns", "Examples:", "Exit status");
   expect_in(run_anywhere({"--version"}).output, "subimpact ", "SUNDIALS ", "KLU ", "toml++ ");
   expect_in(run_anywhere({"methods"}).output, "central-difference ", "erk ", "dop853 ", "8(5)");
   expect_in(run_anywhere({"columns"}).output, "events.csv: one row per sub-impact\n",
@@ -79,26 +78,6 @@ TEST(Stability, WritesThePartsAskedFor) {
     EXPECT_TRUE(directory.has(std::string("s/") + name)) << name;
   }
   EXPECT_FALSE(directory.has("s/damping.csv"));
-}
-
-// The case fixes a mesh with spacing "points" and a step, none of which the advice has.
-TEST(Plan, AdvisesOptionsThatTheProgramTakes) {
-  const TemporaryDirectory directory;
-  const Words common = {SUBIMPACT_PAPERS_OWN_CASE, "--set", "model.section=elastic", "--set",
-                        "time.end=2.9e-4"};
-  Words planning = {"plan", "--within", "2us", "--out", "plan"};
-  planning.insert(planning.end(), common.begin(), common.end());
-  const Finished planned = run_in(directory, planning);
-  EXPECT_TRUE(directory.has("plan/plan.svg"));
-  const auto begin = planned.output.find("  --method ");
-  ASSERT_NE(begin, std::string::npos) << planned.output;
-  std::istringstream advice(planned.output.substr(begin, planned.output.find('\n', begin) - begin));
-  Words running = {"run", "--out", "run"};
-  running.insert(running.end(), common.begin(), common.end());
-  for (std::string word; advice >> word;) running.push_back(word);
-  const Finished run = run_in(directory, running);
-  expect_not_in(run.output, "step of 1e-07");
-  expect_in(run.output, "exponential");
 }
 
 TEST(Explain, TellsWhatWillBeModelledAndWritesNothing) {

@@ -80,7 +80,7 @@ TEST(RepeatedStrikes, OfTheProgramHaveARowEachInATableAndOnTheScreen) {
   const TemporaryDirectory here;
   const std::vector<std::string> thrice = {"--set", "repeat.strikes=3", "--set",
                                            "beam.ends=pinned,pinned"};
-  expect_in(run_in(here, run_to("1 ms", "here", thrice)).output, "strike  sub-impacts");
+  expect_in(run_in(here, run_to("1 ms", "here", thrice)).output, "strike sub-impacts");
   const Result result = read_results(here.path / "here").result;
   ASSERT_EQ(result.strikes.size(), 3U);
   EXPECT_EQ(result.strikes.back().sub_impacts, result.sub_impacts.size());

@@ -48,15 +48,6 @@ TEST_F(ARun, WritesItsFilesAndPrintsTheTable) {
   EXPECT_NEAR(summary.at("first_yield").at("section_s").get<double>(), 9.41e-6, 0.05e-6);
 }
 
-TEST_F(ARun, JudgesAStrikeOnMixedCellsByCoarserOnes) {
-  expect_in(unwrapped(run_here(directory,
-                               {"model.mesh=mixed", "model.segments=400", "model.section=exact",
-                                "solver.method=central-difference", "time.end=3e-4"},
-                               0, {"--verbose"})
-                          .output),
-            "400 mixed cells, one half by symmetry", "340 mixed cells, 280 mixed cells");
-}
-
 TEST_F(ARun, KeepsAHistoryRowEveryInterval) {
   run_here(directory, {"output.interval=1e-5"});
   expect_in(directory.read("here/history.csv"), "\n1.0000000000000001e-05,",
@@ -111,7 +102,13 @@ TEST(NewCase, OfEverySceneIsCommentedAndRuns) {
     expect_in(text.output, "# ");
     directory.write("case.toml", text.output);
     const Finished finished = run_in(directory, {"run", "case.toml", "--set", "time.end=1 ms"});
-    EXPECT_EQ(finished.errors, "") << "a case to begin with has notes or warnings";
+    // Pinned ends of a struck beam pull, and a run says so; a case to begin with has nothing else.
+    if (scene == std::string_view("cantilever")) {
+      EXPECT_EQ(finished.errors, "");
+    }
+    std::istringstream warnings(finished.errors);
+    for (std::string line; std::getline(warnings, line);)
+      expect_in(line, "pulls the beam by up to");
     expect_in(unwrapped(finished.output), "all certain", "energy");
   }
 }

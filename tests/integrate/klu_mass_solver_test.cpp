@@ -1,7 +1,7 @@
 #include "integrate/sundials.h"
 
 #include "banded_examples.h"
-#include "model/cell_mesh.h"
+#include "model/mesh/cell_mesh.h"
 #include "paper_scene.h"
 #include "testing.h"
 

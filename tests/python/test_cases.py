@@ -199,3 +199,21 @@ def test_identity_depends_on_values_but_not_on_the_title(elastic):
     assert other.identity("how") != elastic.identity()
     for key, value in (("striker.velocity", np.nextafter(15.9, 16)), ("output.zone_gap", 0.2)):
         assert elastic.changed({key: value}).identity() != elastic.identity()
+
+
+def test_values_with_a_unit_are_those_of_a_file(elastic):
+    elastic["beam.length"] = "500 mm"
+    assert elastic["beam.length"] == 0.5
+    assert elastic.given()["beam.length"] == 0.5
+    assert elastic.changed({"striker.mass": "1 lb"})["striker.mass"] == 0.45359237
+    linear = elastic.changed({"contact.law": "linear", "contact.stiffness": "60 MN/m",
+                              "beam.springs": [{"position": 0.5, "stiffness": "2 kN/m"}]})
+    assert linear["contact.stiffness"] == 60e6
+    assert linear["beam.springs"] == [{"position": 0.5, "stiffness": 2000.0}]
+    assert si.Case(linear.given()) == linear
+    for key, value, words in [("beam.length", "500 mN", "mm"), ("beam.length", "-5 mm", "above 0")]:
+        with pytest.raises(si.CaseError, match=words):
+            elastic[key] = value
+    linear["contact.law"] = "hertz"
+    with pytest.raises(si.CaseError, match=r"is in MN/m.*N/m\^1.5"):
+        linear.check()

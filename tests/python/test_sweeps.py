@@ -75,7 +75,7 @@ def test_keys_that_change_together_are_one_axis(elastic):
 
 @pytest.mark.parametrize("axes, scatter, words", [
     ({"striker.velocty": [1.0]}, {}, "did you mean"),
-    ({"striker.velocity": [1.0, -1.0]}, {}, "above 0"),
+    ({"striker.velocity": [1.0, -1.0]}, {}, "0 or above"),
     ({"striker.velocity": []}, {}, "no values"),
     ({"striker.velocity": [1.0], ("striker.velocity",): [(2.0,)]}, {}, "two axes"),
     ({("beam.width", "beam.thickness"): [(0.01,)]}, {}, "2 values"),

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "io/run_tables.h"
+#include "io/records/run_tables.h"
 #include "print.h"
 #include "sample_result.h"
 #include "small_case.h"

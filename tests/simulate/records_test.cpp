@@ -1,7 +1,7 @@
 #include "subimpact/simulate/records.h"
 #include "lumped.h"
-#include "simulate/audit.h"
-#include "simulate/quadratures.h"
+#include "simulate/loop/audit.h"
+#include "simulate/loop/quadratures.h"
 #include "testing.h"
 
 namespace subimpact {

@@ -70,7 +70,7 @@ TEST(AnInterruptedComparison, HasTheMethodsThatHadEnded) {
 }
 
 TEST(AComparison, WithAReferenceThatFailedIsNotMade) {
-  Case input = elastic_case(0.1e-3);
+  Case input = elastic_case(1e-3);        // in which the striker goes through the beam
   input.scene.beam.yield_stress = 150.0;  // MPa were meant
   input.model.section = SectionKind::exact;
   input.model.segments = 21;
@@ -134,6 +134,22 @@ TEST(CompareModels, ByContactLawsDropTheConstantsThatALawDoesNotUse) {
   EXPECT_FALSE(hertz.scene.contact.yield_pressure);
   for (const Case& one : {input, foundation, hertz}) EXPECT_NO_THROW(check(one));
   EXPECT_THROW(with_contact_law(input, "spere"), InvalidCase);
+}
+
+TEST(CompareModels, ByContactLawsKeepWhatALawMeasuresFromTheMidPlane) {
+  Case input = strike(BeamTheory::timoshenko);
+  Contact& contact = input.scene.contact;
+  contact.kind = ContactKind::sphere;
+  contact.pressure_by_depth = true;
+  contact.indentation = IndentationFrom::mid_plane;
+  const Case line = with_contact_law(input, "line"), plain = with_contact_law(input, "foundation");
+  EXPECT_TRUE(line.scene.contact.pressure_by_depth);
+  EXPECT_FALSE(plain.scene.contact.pressure_by_depth);
+  input.scene.contact.pressure_by_depth = false;
+  input.scene.contact.indentation = IndentationFrom::half_space;
+  for (const Case& one : {line, plain, with_contact_law(input, "line")}) {
+    EXPECT_NO_THROW(check(one));
+  }
 }
 
 // At 0.1 m/s nothing yields: the first contact of the published beam ends at 403.89 us, with shear

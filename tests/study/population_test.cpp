@@ -1,7 +1,7 @@
 #include "subimpact/study/population.h"
 #include "elastic_case.h"
 #include "refusal.h"
-#include "subimpact/study/predictability.h"
+#include "subimpact/study/sensitivity/predictability.h"
 #include "testing.h"
 
 namespace subimpact {

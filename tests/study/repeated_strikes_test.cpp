@@ -46,12 +46,6 @@ const RestingBeam free_of_moments[] = {
     {"hermite_elements",
      {{"model.mesh", "hermite"}, {"model.elements", 60}, {"solver.method", "erk"}}},
     {"with_shear", {{"beam.theory", "timoshenko"}, {"beam.poisson", 0.33}}},
-    {"mixed_cells", {{"model.mesh", "mixed"}, {"model.segments", 400}}},
-    {"mixed_cells_pinned",
-     {{"model.mesh", "mixed"},
-      {"model.segments", 400},
-      {"striker.position", 0.3},
-      {"beam.ends", Names{"pinned", "pinned"}}}},
 };
 
 INSTANTIATE_TEST_SUITE_P(, RestingBeams, testing::ValuesIn(free_of_moments), NamedAsPrinted{});
@@ -71,6 +65,12 @@ TEST_P(RestingBeams, HaveNoMomentsAndTheirPermanentSetWhereSupportsAllowIt) {
     const double set = first.envelope[i].permanent_set;
     largest = std::max(largest, std::abs(set));
     difference = std::max(difference, std::abs(shape[i].displacement - chord - set));
+    if (input.scene.beam.ends[0] == EndSupport::clamped) {  // against the clamp, as measured
+      const double from_clamp = first.envelope[i].set_from_supports;
+      difference = std::max(difference, std::abs(shape[i].displacement - from_clamp));
+    } else {
+      EXPECT_EQ(first.envelope[i].set_from_supports, set);
+    }
     moment = std::max(moment, std::abs(shape[i].moment));
   }
   EXPECT_GT(largest, 1e-4);
@@ -80,24 +80,20 @@ TEST_P(RestingBeams, HaveNoMomentsAndTheirPermanentSetWhereSupportsAllowIt) {
 
 // Equal rotations of both ends: E I kappa = M - E I kappa_p, the integral of kappa is zero.
 TEST(RestingBeam, BetweenClampsKeepsTheUniformMomentOfLeastEnergy) {
-  for (const MeshKind mesh : {MeshKind::cells, MeshKind::mixed}) {
-    Case input = paper_strike(1.5e-3);
-    input.model.mesh = mesh;
-    if (mesh == MeshKind::mixed) input.model.segments = 400;
-    input.scene.beam.ends = {clamped, clamped};
-    input.scene.striker.velocity = 8.0;
-    const Result first = simulate(input);
-    const std::vector<ShapeRow> shape = shape_at_rest(input, first);
-    ASSERT_FALSE(shape.empty());
-    const double rotation =
-        std::accumulate(first.plastic_zones.begin(), first.plastic_zones.end(), 0.0,
-                        [](double sum, const PlasticZone& zone) { return sum + zone.rotation; });
-    const Beam& beam = input.scene.beam;
-    const double moment = -beam.bending_stiffness() * rotation / beam.length;
-    EXPECT_GT(std::abs(moment), 1e-4 * beam.yield_moment());
-    for (const ShapeRow& row : shape) {
-      EXPECT_NEAR(row.moment, moment, 1e-6 * std::abs(moment)) << row.position;
-    }
+  Case input = paper_strike(1.5e-3);
+  input.scene.beam.ends = {clamped, clamped};
+  input.scene.striker.velocity = 8.0;
+  const Result first = simulate(input);
+  const std::vector<ShapeRow> shape = shape_at_rest(input, first);
+  ASSERT_FALSE(shape.empty());
+  const double rotation =
+      std::accumulate(first.plastic_zones.begin(), first.plastic_zones.end(), 0.0,
+                      [](double sum, const PlasticZone& zone) { return sum + zone.rotation; });
+  const Beam& beam = input.scene.beam;
+  const double moment = -beam.bending_stiffness() * rotation / beam.length;
+  EXPECT_GT(std::abs(moment), 1e-4 * beam.yield_moment());
+  for (const ShapeRow& row : shape) {
+    EXPECT_NEAR(row.moment, moment, 1e-6 * std::abs(moment)) << row.position;
   }
 }
 
@@ -112,7 +108,7 @@ TEST(RepeatedStrikes, OnAnElasticBeamAreAllAlike) {
   ASSERT_EQ(result.strikes.size(), 3U);
   for (const StrikeRow& row : result.strikes) {
     EXPECT_EQ(row.sub_impacts, result.strikes.front().sub_impacts);
-    EXPECT_NEAR(row.restitution, result.strikes.front().restitution, 1e-12);
+    EXPECT_NEAR(row.striker_velocity, result.strikes.front().striker_velocity, 1e-12);
     EXPECT_EQ(row.dent, 0.0);
     EXPECT_EQ(row.permanent_set, 0.0);
   }
@@ -144,12 +140,13 @@ TEST(RepeatedStrikes, OfRigidBodiesFollowTheBalanceOfEachDent) {
       (taken < energy ? low : high) = middle;
     }
     const double e = std::sqrt(law->recoverable_energy({low}, low) / energy);
-    EXPECT_NEAR(row.restitution, e, 1e-8) << row.strike;
+    EXPECT_NEAR(row.restitution.value(), e, 1e-8) << row.strike;
     EXPECT_NEAR(row.dent, law->residual_indentation({low}), 1e-10) << row.strike;
     EXPECT_NEAR(row.contact_dissipated, (1.0 - e * e) * energy, 1e-7 * energy) << row.strike;
     before = low;
   }
-  EXPECT_GT(result.strikes.back().restitution, 1.5 * result.strikes.front().restitution);
+  EXPECT_GT(result.strikes.back().restitution.value(),
+            1.5 * result.strikes.front().restitution.value());
 }
 
 TEST(RepeatedStrikes, OnAYieldingBeamHaveTheErrorsOfRunsThatWereStruckAsOften) {
@@ -161,7 +158,7 @@ TEST(RepeatedStrikes, OnAYieldingBeamHaveTheErrorsOfRunsThatWereStruckAsOften) {
   ASSERT_EQ(result.strikes.size(), 3U);
   EXPECT_TRUE(result.outcome.completed());
   for (const StrikeRow& row : result.strikes) {
-    ASSERT_TRUE(row.restitution_error);
+    ASSERT_TRUE(row.peak_force_error);
     const double taken =
         row.striker_energy + row.vibration + row.bending_dissipated + row.contact_dissipated;
     const double locked = taken - result.used.initial_energy;  // in the sections before the strike

@@ -1,7 +1,7 @@
 #include "subimpact/study/work_precision.h"
 #include "paper_run.h"
 #include "print.h"
-#include "subimpact/study/match.h"
+#include "subimpact/study/judgement/match.h"
 
 namespace subimpact {
 namespace {

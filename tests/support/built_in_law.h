@@ -1,6 +1,7 @@
 #pragma once
 
-#include "model/contact_laws.h"
+#include "model/contact/contact_laws.h"
+#include "model/contact/power_contact.h"
 
 namespace subimpact {
 

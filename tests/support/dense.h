@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "banded_examples.h"
-#include "subimpact/model/beam_mesh.h"
+#include "subimpact/model/mesh/beam_mesh.h"
 
 namespace subimpact {
 

@@ -11,11 +11,12 @@
 #include "integrate/nystrom.h"
 #include "integrate/sundials.h"
 #include "lumped_mesh.h"
-#include "model/modal_mesh.h"
-#include "simulate/event_loop.h"
-#include "simulate/recorder.h"
+#include "model/mesh/modal_mesh.h"
+#include "simulate/loop/event_loop.h"
+#include "simulate/records/recorder.h"
 #include "struck_beam_of.h"
-#include "system/contact_events.h"
+#include "system/contact/contact_events.h"
+#include "system/modal_beam.h"
 
 namespace subimpact {
 

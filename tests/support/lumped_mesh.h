@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/model/beam_mesh.h"
+#include "subimpact/model/mesh/beam_mesh.h"
 
 namespace subimpact {
 

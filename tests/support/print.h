@@ -10,8 +10,8 @@
 #include "subimpact/model/scene.h"
 #include "testing.h"
 
-#if __has_include("case/case_choices.h")
-#include "case/case_choices.h"
+#if __has_include("case/keys/case_choices.h")
+#include "case/keys/case_choices.h"
 #endif
 
 namespace subimpact {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/listed_files.h"
+#include "io/directory/listed_files.h"
 
 namespace subimpact {
 

@@ -17,6 +17,7 @@ inline Result sample_result() {
   first.max_indentation = 1.6963887700000001e-4;
   first.residual_indentation = 1.5400520000000003e-4;
   first.striker_velocity = 13.05;
+  first.opening = 1.2345678901234567e-5;
   first.zone = 1;
   first.subzone = 1;
   SubImpact second = first;
@@ -25,7 +26,7 @@ inline Result sample_result() {
   second.subzone = 2;
   SubImpact open = first;
   open.start = 5e-3;
-  open.end = std::nullopt;
+  open.end = open.opening = std::nullopt;
   open.zone = 2;
   result.sub_impacts = {first, second, open};
   result.transitions = {{0.0, EventKind::contact_begins, std::nullopt, 0.0},
@@ -72,6 +73,7 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
     s.impulse_error = first ? 4.9e-6 : 5.2e-4;
     s.max_indentation_error = s.residual_indentation_error = first ? 8e-9 : 9e-7;
     s.striker_velocity_error = first ? 6.4e-4 : 0.068;
+    if (s.opening) s.opening_error = first ? 3e-8 : 2e-6;
     if (*s.certain) estimate.largest_error = error;
   }
   estimate.parts = {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "model/contact_laws.h"
+#include "model/contact/contact_laws.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

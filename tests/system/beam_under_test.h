@@ -1,7 +1,7 @@
 #pragma once
 
 #include "banded_examples.h"
-#include "model/cell_mesh.h"
+#include "model/mesh/cell_mesh.h"
 #include "paper_scene.h"
 #include "print.h"
 #include "struck_beam_of.h"

@@ -1,7 +1,7 @@
 // The struck beam's equations: what they conserve, and that they are what the header says.
 
 #include "beam_under_test.h"
-#include "system/accounts.h"
+#include "system/readings/accounts.h"
 
 namespace subimpact {
 namespace {

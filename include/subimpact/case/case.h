@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "subimpact/model/beam_mesh.h"
-#include "subimpact/model/contact_law.h"
-#include "subimpact/model/fibres.h"
+#include "subimpact/model/contact/contact_law.h"
+#include "subimpact/model/mesh/beam_mesh.h"
 #include "subimpact/model/scene.h"
+#include "subimpact/model/section/fibres.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/run_state.h"
 
@@ -24,8 +24,8 @@ enum class SectionKind {
 };
 
 enum class MeshKind {
-  cells,     ///< equal cells
-  mixed,     ///< equal cells with moments linear between nodes
+  cells,  ///< equal cells
+
   hermite,   ///< cubic Hermite elements
   spectral,  ///< elements of degree 4, of a beam that shears
   rigid      ///< the beam as a rigid body

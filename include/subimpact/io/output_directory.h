@@ -41,9 +41,10 @@ class OutputDirectory {
   const std::filesystem::path& staging() const { return staging_; }
 
   /// Puts all files of staging() in place; more may follow and be committed in turn. Files of
-  /// another identity that commit() has put there before are removed. A file that no commit() has
-  /// put there, or that was changed since, is kept: under its own name, or as "name.kept" where a
-  /// new file takes its name. Throws OutputError and leaves the older files in place.
+  /// another identity that commit() has put there before are removed, which notes() tell. A file
+  /// that no commit() has put there, or that was changed since, is kept: under its own name, or as
+  /// "name.kept" where a new file takes its name. Throws OutputError and leaves the older files in
+  /// place.
   void commit();
 
   /// After an error of writing: goes on in a new directory below the system's directory for
@@ -51,8 +52,11 @@ class OutputDirectory {
   void relocate(const std::string& cause);
   bool is_relocated() const { return !relocation_.empty(); }
 
-  /// Messages for the user: files that were kept, another directory.
+  /// Messages for the user: files that were kept or removed, another directory.
   const std::vector<std::string>& notes() const { return notes_; }
+  void add_notes(const std::vector<std::string>& of_another) {
+    notes_.insert(notes_.end(), of_another.begin(), of_another.end());
+  }
 
  private:
   void open(const std::filesystem::path& directory);
@@ -60,7 +64,7 @@ class OutputDirectory {
   void write_manifest();
   void settle();
   void put_in_place(const std::string& name, const Manifest& manifest);
-  void remove_replaced(const std::string& name, const Manifest& manifest);
+  bool remove_replaced(const std::string& name, const Manifest& manifest);
 
   std::filesystem::path path_, staging_;
   std::string kind_, identity_, commit_;

@@ -14,7 +14,7 @@ namespace subimpact {
 
 /// The version of the layout of summary.json, its key "layout": raised when a key is renamed, moved
 /// or removed. Files of other layouts are not read.
-constexpr int summary_layout = 5;
+constexpr int summary_layout = 6;
 
 /// Writes the files of a run. Numbers in CSV carry 17 significant digits, enough to read the same
 /// double back; the columns are the same for every result. Files: events.csv, transitions.csv,

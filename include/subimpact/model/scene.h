@@ -174,7 +174,8 @@ struct Striker {
   double velocity = 0.0;              ///< v0, m/s, towards the beam
   double position = 0.5;              ///< struck point as a fraction of the length
   double gap = 0.0;                   ///< m, between nose and beam at t = 0
-  /// By default the shape for which the contact law is meant: cylinder (`foundation`) or sphere.
+  /// By default the shape for which the contact law is meant: cylinder (`foundation`, `line`) or
+  /// sphere.
   std::optional<NoseShape> nose = {};
   std::optional<double> drop_height = {};  ///< m: v0 is that of a fall from rest (Bodies)
   bool fixed = false;                      ///< a stop: without mass and velocity
@@ -217,20 +218,37 @@ enum class ContactKind {
   hertz,       ///< F = K lambda^1.5, never yields
   linear,      ///< F = K lambda, never yields
   sphere,      ///< Hertz up to the yield pressure, Thornton's plastic contact beyond
+  line,        ///< a cylinder across the beam, elastic up to the yield pressure, plastic beyond
+};
+
+/// What the nose's displacement is compared with in the laws of a half-space.
+enum class IndentationFrom {
+  half_space,  ///< the displacement of points far away
+  mid_plane    ///< that of the beam's axis, as the equations of motion have it
 };
 
 /// The contact's own constants; those of `foundation` follow from beam and nose radius.
 struct Contact {
   ContactKind kind = ContactKind::foundation;
   std::optional<double> stiffness;  ///< K: N/m^1.5 (hertz), N/m (linear)
-  // Constants of the bodies in contact (sphere; hertz in place of a stiffness):
-  std::optional<double> striker_modulus;  ///< E_s, Pa; infinite: rigid
+  // Constants of the bodies in contact (sphere, line; hertz in place of a stiffness):
+  std::optional<double> striker_modulus;  ///< E_s, Pa; infinite, or left out: rigid
   std::optional<double> striker_poisson;  ///< nu_s
   std::optional<double> beam_poisson;     ///< nu
   /// chi, s/m: F = K lambda^n (1 + chi lambda') (hertz, linear; Hunt and Crossley 1975)
   double damping = 0.0;
-  /// p_y, Pa: contact pressure at which the softer body yields (sphere); by default 1.6 Y.
+  /// p_y, Pa: contact pressure at which the softer body yields; by default 1.6 Y (sphere), 1.67 Y
+  /// (line).
   std::optional<double> yield_pressure = {};
+  /// In place of p_y: the mean pressure rises with the depth of the dent (sphere from the
+  /// mid-plane, line).
+  bool pressure_by_depth = false;
+  /// By default the half-space (sphere, hertz); a line contact knows the mid-plane alone.
+  std::optional<IndentationFrom> indentation = {};
+
+  bool is_from_mid_plane() const {
+    return kind == ContactKind::line || indentation == IndentationFrom::mid_plane;
+  }
 };
 
 struct Scene {
@@ -245,8 +263,9 @@ struct Scene {
     return beam.poisson ? beam.poisson : contact.beam_poisson;
   }
   NoseShape nose() const {
-    return striker.nose.value_or(contact.kind == ContactKind::foundation ? NoseShape::cylinder
-                                                                         : NoseShape::sphere);
+    const bool is_line =
+        contact.kind == ContactKind::foundation || contact.kind == ContactKind::line;
+    return striker.nose.value_or(is_line ? NoseShape::cylinder : NoseShape::sphere);
   }
 };
 

@@ -10,9 +10,8 @@
 
 #include "subimpact/io/output_directory.h"
 #include "subimpact/study/compare.h"
-#include "subimpact/study/plan.h"
-#include "subimpact/study/sensitivity.h"
-#include "subimpact/study/stability.h"
+#include "subimpact/study/sensitivity/sensitivity.h"
+#include "subimpact/study/stability/stability.h"
 #include "subimpact/study/work_precision.h"
 
 namespace subimpact {
@@ -26,16 +25,6 @@ std::string matches_csv(const Comparison& comparison);
 /// derivative by the logarithm of the key (d_<key>) and the error of the derivative (error_<key>).
 std::string sensitivity_csv(const Sensitivity& study);
 void write_sensitivity(const std::filesystem::path& directory, const Sensitivity& study);
-
-/// The reference's event times with their errors.
-std::string plan_reference_table(const Plan& plan);
-
-/// The runs made, the cheapest admitted one with the options that select it, and the horizon.
-std::string plan_table(const Plan& plan);
-
-/// Writes reference.csv, plan.csv and, from the latter, plan.svg and .png: error on x, counted work
-/// on y, one line per sequence of meshes. Filled marks are admitted.
-void write_plan(const std::filesystem::path& directory, const Plan& plan);
 
 /// The reference, one line per point, and why a point is not right, in words.
 std::string work_precision_table(const WorkPrecision& study);

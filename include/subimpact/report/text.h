@@ -11,9 +11,9 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
-#include "subimpact/study/forecast.h"
 #include "subimpact/study/overlay.h"
-#include "subimpact/study/sensitivity.h"
+#include "subimpact/study/refinement/forecast.h"
+#include "subimpact/study/sensitivity/sensitivity.h"
 
 namespace subimpact {
 

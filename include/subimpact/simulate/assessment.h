@@ -25,6 +25,7 @@ struct SubImpactAssessment {
   std::optional<double> max_indentation_error;  ///< m
   std::optional<double> residual_indentation_error;  ///< m
   std::optional<double> striker_velocity_error;      ///< m/s
+  std::optional<double> opening_error;               ///< m
   /// Times extrapolated to the limit of fine meshes (s) and their uncertainty, where a sequence of
   /// meshes converges at the expected order.
   std::optional<double> start_mesh_limit, end_mesh_limit, mesh_limit_error;
@@ -73,6 +74,13 @@ struct ErrorEstimate : ErrorOfTimes {
     std::string reason;
   };
   std::vector<UncertainFlight> uncertain_flights;
+  /// The flight after a sub-impact (from 0), if it may hold another one; else null.
+  const UncertainFlight* doubt_after(std::size_t i) const {
+    for (const UncertainFlight& flight : uncertain_flights) {
+      if (flight.after == i) return &flight;
+    }
+    return nullptr;
+  }
   /// On a mesh that the case fixes, errors of sub-impacts are those of the integration in time;
   /// this member states what finer meshes would change.
   struct FinerMeshes {
@@ -83,6 +91,13 @@ struct ErrorEstimate : ErrorOfTimes {
     std::string doubt;                          ///< why the mesh is too coarse; empty: it is not
   };
   std::optional<FinerMeshes> finer_meshes;
+  /// Where many sub-impacts are not certain: what is left of them if contacts parted by less than
+  /// an opening are joined.
+  struct Joined {
+    double opening = 0.0;  ///< m
+    std::size_t n = 0, n_certain = 0;
+  };
+  std::optional<Joined> joined;
   std::vector<NamedTotal> totals;
   std::vector<ZoneTotals> zones;
 };

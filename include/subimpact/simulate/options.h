@@ -64,6 +64,7 @@ struct OutputOptions {
   std::optional<double> interval;
   double zone_gap = 0.1;         ///< in first flexural periods
   double subzone_gap = 0.02;     ///< in first flexural periods
+  double opening = 0.0;          ///< m: contacts parted by less are joined; 0: none
   std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
   std::vector<double> points;    ///< points whose motion is kept, as fractions of the length
   /// s between shapes, the fields along the whole beam; 0: none, and no envelope; empty: about 400

@@ -25,8 +25,13 @@ struct SubImpact : SubImpactAssessment {
   double striker_velocity = 0.0;      ///< m/s, at its end
   double start_rate = 0.0;            ///< m/s, rate of the indentation at the start
   double end_rate = 0.0;              ///< m/s, the same at the end
-  int zone = 0;                       ///< numbered from 1
-  int subzone = 0;                    ///< numbered from 1 within the zone
+  /// m, largest gap between striker and beam after its end, until the next one begins or the
+  /// simulation ends; none: still in contact then.
+  std::optional<double> opening;
+  /// m, largest gap within it, where contacts are joined (OutputOptions::opening); none: it is one.
+  std::optional<double> inner_opening;
+  int zone = 0;     ///< numbered from 1
+  int subzone = 0;  ///< numbered from 1 within the zone
 };
 
 /// The event that nearly happened when the indentation came close to the residual one.
@@ -49,6 +54,13 @@ struct NearMiss {
 /// Sets the numbers of zone and sub-zone: a sub-impact that begins sooner than `zone_gap` (s) after
 /// the end of the last one belongs to the same zone; `subzone_gap` does the same for sub-zones.
 void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap);
+
+/// Joins sub-impacts that are parted by less than `opening` (m). Joined ones last from the first
+/// start to the last end, with the largest force and indentation and the sum of the impulses.
+void join_sub_impacts(std::vector<SubImpact>& sub_impacts, double opening);
+
+/// How many sub-impacts remain where those parted by less than `opening` (m) count as one.
+std::size_t n_parted_by(double opening, const std::vector<SubImpact>& sub_impacts);
 
 /// A zone in numbers; its end is that of its last sub-impact.
 struct ZoneSummary {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -93,6 +94,8 @@ struct EnvelopeRow {
   Range strain;                ///< -kappa h/2, of the outer fibre behind; tension: above 0
   Range plastic_curvature;     ///< 1/m
   double permanent_set = 0.0;  ///< m: displacement at rest against the chord
+  /// m: the same against the supports, which differs for a cantilever: against its clamp.
+  double set_from_supports = 0.0;
 };
 
 /// The largest magnitude of a quantity along the beam, sampled at single instants.
@@ -121,23 +124,25 @@ struct FieldPeaks {
   SampledPeak displacement;  ///< m
   SampledPeak moment;        ///< N m
   SampledPeak strain;        ///< of the outer fibre
+  /// N, of the forces of the supports along the strike and against it, as magnitudes.
+  SampledPeak reaction_along, reaction_against;
 };
 
 /// One row of strikes.csv: one of several strikes on a beam, at its end.
 struct StrikeRow {
-  int strike = 0;                   ///< from 1
-  std::size_t sub_impacts = 0;      ///< their number
-  double restitution = 0.0;         ///< as Result::restitution()
-  double striker_velocity = 0.0;    ///< m/s
-  double peak_force = 0.0;          ///< N
-  double impulse = 0.0;             ///< N s
-  double dent = 0.0;                ///< m, residual, of all strikes so far
-  double permanent_set = 0.0;       ///< m, largest against the chord, of all strikes so far
-  double hinge_rotation = 0.0;      ///< rad, largest, of all strikes so far
-  double striker_energy = 0.0;      ///< J, left in the striker
-  double vibration = 0.0;           ///< J, of the beam, with energy locked in bent sections
-  double bending_dissipated = 0.0;  ///< J, by this strike
-  double contact_dissipated = 0.0;  ///< J, by this strike
+  int strike = 0;                     ///< from 1
+  std::size_t sub_impacts = 0;        ///< their number
+  std::optional<double> restitution;  ///< as Result::restitution
+  double striker_velocity = 0.0;      ///< m/s
+  double peak_force = 0.0;            ///< N
+  double impulse = 0.0;               ///< N s
+  double dent = 0.0;                  ///< m, residual, of all strikes so far
+  double permanent_set = 0.0;         ///< m, largest against the supports, of all strikes so far
+  double hinge_rotation = 0.0;        ///< rad, largest, of all strikes so far
+  double striker_energy = 0.0;        ///< J, left in the striker
+  double vibration = 0.0;             ///< J, of the beam, with energy locked in bent sections
+  double bending_dissipated = 0.0;    ///< J, by this strike
+  double contact_dissipated = 0.0;    ///< J, by this strike
   std::optional<double> restitution_error, peak_force_error, permanent_set_error;
 };
 
@@ -199,10 +204,8 @@ struct ResolvedSettings {
   double largest_contact_slope = 0.0;  ///< N/m, dF/dlambda that the strike's energy allows
   /// rad/s, of beam and striker joined by a spring of that slope; at least highest_frequency.
   double joined_frequency = 0.0;
-  double contact_time = 0.0;        ///< s, scale of the shortest contacts
-  double contact_mass_share = 0.0;  ///< of the striker in the mass that such contacts move at once
-  /// s: the step for which the mesh is made, and the only one allowed; empty for most meshes.
-  std::optional<double> natural_step = {};
+  double contact_time = 0.0;         ///< s, scale of the shortest contacts
+  double contact_mass_share = 0.0;   ///< of the striker in the mass that such contacts move at once
   double critical_step = 0.0;        ///< s, of central differences: 2/joined_frequency
   std::optional<double> step;        ///< s, of fixed-step methods
   std::optional<std::string> table;  ///< coefficients, of Runge-Kutta methods
@@ -229,8 +232,7 @@ struct ResolvedSettings {
 /// The cost of a run: of the integration (including mass solves and right-hand sides of the beam)
 /// and of event location.
 struct Work : WorkCounts {
-  long roots = 0;     ///< events located
-  double flow = 0.0;  ///< of sections on mixed cells, in evaluations of a cell's acceleration
+  long roots = 0;  ///< events located
   double setup_seconds = 0.0;
   double wall_seconds = 0.0;  ///< whole, set-up included
   double all_seconds = 0.0;   ///< with the runs beside and before it; 0: there were none
@@ -262,6 +264,9 @@ struct Result : Assessment {
   std::size_t n_shape_rows = 0;             ///< wherever they went
   std::vector<EnvelopeRow> envelope;        ///< in ascending order of x; with shapes
   FieldPeaks peaks;                         ///< with shapes
+  /// N, extremes of the forces of the supports at x = 0 and x = l on the beam, positive along the
+  /// strike, over history rows, shapes and events; none at a free end.
+  std::array<std::optional<EnvelopeRow::Range>, 2> reactions;
   /// All strikes of a beam that was struck several times; other members describe the last strike.
   std::vector<StrikeRow> strikes;
   /// The plastic hinges of the whole beam at the end, in ascending order of x; with shapes.
@@ -313,7 +318,7 @@ struct Result : Assessment {
   bool is_usable() const { return outcome.completed() || outcome.kind == OutcomeKind::stopped; }
   /// The end of a sub-impact, s; the end of the run if it was still open.
   double end_of(const SubImpact& s) const { return s.end.value_or(outcome.time); }
-  /// Of all sub-impacts, N s.
+  /// The sum over all sub-impacts, N s.
   double impulse() const;
   /// How many sub-impacts are certain. None without an error estimate.
   std::optional<std::size_t> n_certain() const;

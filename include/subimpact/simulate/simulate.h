@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "subimpact/model/beam_mesh.h"
-#include "subimpact/model/contact_law.h"
-#include "subimpact/model/fibres.h"
+#include "subimpact/model/contact/contact_law.h"
+#include "subimpact/model/mesh/beam_mesh.h"
 #include "subimpact/model/scene.h"
+#include "subimpact/model/section/fibres.h"
 #include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/result.h"

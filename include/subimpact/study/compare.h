@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "subimpact/case/simulate.h"
-#include "subimpact/study/event_errors.h"
-#include "subimpact/study/judgement.h"
+#include "subimpact/study/judgement/event_errors.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 

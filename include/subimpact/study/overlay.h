@@ -35,8 +35,8 @@ struct Fitted {
 struct Overlay {
   Fitted shift;                    ///< s, by which the measured time is later than that of the run
   std::optional<Fitted> low_pass;  ///< Hz
-  /// Of the two forces at the measured samples within [from, to]: sum of products over the root of
-  /// both sums of squares; 1 if they differ only by a factor.
+  /// How alike the two forces are at the measured samples within [from, to]: sum of products over
+  /// the root of both sums of squares; 1 if they differ only by a factor.
   double correlation = 0.0;
   double sampling_interval = 0.0;  ///< s, the median
   double from = 0.0, to = 0.0;     ///< s, time that run and measurement both cover

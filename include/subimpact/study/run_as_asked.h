@@ -7,7 +7,7 @@
 
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/study/within.h"
+#include "subimpact/study/refinement/within.h"
 
 namespace subimpact {
 

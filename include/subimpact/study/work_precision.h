@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/study/event_errors.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 namespace subimpact {
 

@@ -55,6 +55,9 @@ class ErkSolver final : public SolverFrame {
   }
 
   void set_fixed_step(double step) { check(ERKStepSetFixedStep(memory(), step), "SetFixedStep"); }
+  void limit_first_step(double longest) {
+    SolverFrame::limit_first_step(longest, ERKStepGetCurrentStep, ERKStepSetInitStep);
+  }
 };
 
 class ArkSolver final : public SolverFrame {
@@ -100,6 +103,9 @@ class ArkSolver final : public SolverFrame {
   ~ArkSolver() { release(); }  // which takes the matrices
 
   void set_fixed_step(double step) { check(ARKStepSetFixedStep(memory(), step), "SetFixedStep"); }
+  void limit_first_step(double longest) {
+    SolverFrame::limit_first_step(longest, ARKStepGetCurrentStep, ARKStepSetInitStep);
+  }
 
   void add_counts(WorkCounts& counts) const {
     long mass_solves = 0;
@@ -159,6 +165,9 @@ class OneStepIntegrator final : public Integrator {
     main_.reset(t, y);
     stand_at(t, y);
   }
+  void limit_next_step(double longest) override {
+    if (!has_fixed_steps_) main_.limit_first_step(longest);
+  }
 
   void step() override {
     const double reached = main_.step();
@@ -201,7 +210,8 @@ class OneStepIntegrator final : public Integrator {
   template <class Ode, class... More>
   OneStepIntegrator(const ContextPointer& context, Ode& ode, const IntegratorOptions& options,
                     const More&... more)
-      : main_(ode, options, context, more...),
+      : has_fixed_steps_(options.fixed_step),
+        main_(ode, options, context, more...),
         partial_(ode, as_partial(options), context, more...) {}
 
   static IntegratorOptions as_partial(IntegratorOptions options) {
@@ -211,6 +221,7 @@ class OneStepIntegrator final : public Integrator {
     return options;
   }
 
+  bool has_fixed_steps_;
   Solver main_;
   Solver partial_;
 };

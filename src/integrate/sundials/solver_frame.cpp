@@ -75,6 +75,13 @@ void SolverFrame::reset(double t, const State& y) {
   time_ = t;
 }
 
+void SolverFrame::limit_first_step(double longest, int (*get_next)(void*, sunrealtype*),
+                                   int (*set_first)(void*, sunrealtype)) {
+  sunrealtype next = 0.0;
+  check(get_next(memory(), &next), "GetCurrentStep");
+  if (next > longest) check(set_first(memory(), longest), "SetInitStep");
+}
+
 int SolverFrame::evolve(double& reached) {
   // Only the sign of the output time relative to the present time matters.
   return calls_.evolve(memory(), time_ + std::max(1.0, 2.0 * time_), vector(), &reached,
@@ -155,7 +162,6 @@ bool SolverFrame::is_at_end(double reached) const {
 void SolverFrame::read(State& y) {
   const auto values = entries(vector());
   y.assign(values.begin(), values.end());
-  if (ode_.settle(std::span(y).first(n_positions_))) reset(time_, y);
 }
 
 void SolverFrame::add_counts(WorkCounts& counts) const {
@@ -173,11 +179,6 @@ void SolverFrame::add_counts(WorkCounts& counts) const {
 int SolverFrame::rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
   SolverFrame& self = of(frame);
   return self.write_rate(t, y, rate, [&self](std::span<const double> in, auto out) {
-    if (self.ode_.settles()) {
-      self.settled_.assign(in.begin(), in.end());
-      self.ode_.settle(std::span(self.settled_).first(self.n_positions_));
-      in = self.settled_;
-    }
     self.ode_.acceleration_at(in, out);
   });
 }

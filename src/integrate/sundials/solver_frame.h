@@ -75,7 +75,7 @@ class SolverFrame {
   void reset(double t, const State& y);
   /// One step, to its end or to the first event in it; returns the time reached.
   double step();
-  /// The state reached, settled; the library goes on from there.
+  /// The state reached.
   void read(State& y);
   const std::optional<Integrator::Root>& root() const { return root_; }
   /// After a step that a root ended: clears the flag that ARKODE keeps of the root, which costs
@@ -93,6 +93,9 @@ class SolverFrame {
   void release() { memory_.reset(); }
   // Weights and limits of the steps, after the library's initialisation.
   void set_step_control(const IntegratorOptions& options);
+  // After a reset, which keeps the length of the next step.
+  void limit_first_step(double longest, int (*get_next)(void*, sunrealtype*),
+                        int (*set_first)(void*, sunrealtype));
   void* memory() const { return memory_.get(); }
   SUNContext context() const { return context_.get(); }
   N_Vector vector() const { return y_.get(); }
@@ -166,7 +169,6 @@ class SolverFrame {
   std::optional<Integrator::Root> root_, root_at_restart_;
   ContextPointer context_;
   VectorPointer y_;
-  State settled_;  // work space
   std::unique_ptr<void, FreeMemory> memory_;
   double position_weight_, velocity_weight_;
   std::exception_ptr thrown_;

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "subimpact/case/simulate.h"
+#include "subimpact/study/judgement/judgement.h"
+#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/sweep.h"
+
+namespace subimpact {
+
+/// The event times of a case's semi-discrete equations, as accurate as the program can compute
+/// them: errors of the time integration are measured against these.
+struct Reference {
+  Case input;                          ///< of the run; ends at the horizon
+  Result result;                       ///< up to the horizon
+  std::vector<SubImpact> sub_impacts;  ///< those that count, with their stated errors
+  double error = 0.0;                  ///< s, the largest error stated for them
+  double horizon = 0.0;                ///< s, up to which runs are compared
+  std::string horizon_reason;          ///< in words
+  std::string description;             ///< the two runs, in words
+};
+
+/// Limits a reference to its first `n` sub-impacts: sets `sub_impacts`, and the horizon in the
+/// middle of the separation that follows. `reason`, in words, is used where there are more.
+void set_horizon(Reference& reference, std::size_t n, const std::string& reason);
+
+/// Two runs by different methods, in parallel on two cores: `exponential` and `nystrom` at rtol =
+/// 1e-12 if the beam is elastic, else `nystrom` and `erk`. The error stated for an event follows
+/// from the difference of the two (study/judgement.h).
+///
+/// A sub-impact counts if it is certain and its stated error is at most `largest_error` (s):
+/// sub-impacts that graze amplify small differences until no computation can predict the next
+/// event. The horizon lies in the middle of the separation after the last that counts, or at the
+/// case's end if that is separation too. Throws InvalidCase if nothing counts, if either run fails,
+/// or for the case itself.
+Reference compute_reference(const Case& input, double largest_error, const Progress& progress = {},
+                            Jobs jobs = 2);
+
+/// How far a run is from a reference. Times are those of the starts and ends of the leading
+/// sub-impacts that correspond one to one; the first start, which is given, is left out.
+struct EventErrors {
+  std::size_t n_reference = 0;      ///< sub-impacts that count
+  std::size_t n_found = 0;          ///< of the run, before the horizon
+  std::size_t n_corresponding = 0;  ///< leading ones
+  double median = 0.0;              ///< s
+  double maximum = 0.0;             ///< s
+  double first = 0.0;               ///< s, of the first end
+  double last = 0.0;                ///< s, of the last time compared
+  double starts = 0.0;              ///< s, largest of the starts
+  double ends = 0.0;                ///< s, largest of the ends
+  double peak_force = 0.0;          ///< largest, relative
+  double impulse = 0.0;             ///< largest, relative to the largest impulse
+  double striker_velocity = 0.0;    ///< at the horizon, relative to the initial velocity
+  double beam_velocity = 0.0;       ///< its mean, as for the striker
+  std::optional<UnmatchedSubImpact> unmatched;  ///< the first sub-impact that does not correspond
+
+  bool all_correspond() const { return !unmatched; }
+  /// A single number for charts: the largest error; where a sub-impact is lost or invented, at
+  /// least the duration of that sub-impact.
+  double overall() const {
+    return unmatched && unmatched->duration > maximum ? unmatched->duration : maximum;
+  }
+};
+
+/// For a run of the reference's scene up to its horizon.
+EventErrors event_errors(const Result& run, const Reference& reference);
+
+/// Errors against any list of sub-impacts; velocities are left at 0.
+EventErrors event_errors(const std::vector<SubImpact>& run,
+                         const std::vector<SubImpact>& reference);
+
+/// The verdict on a run compared with a reference.
+enum class Verdict {
+  right,        ///< completed, and every sub-impact corresponds
+  wrong_count,  ///< completed, but sub-impacts are missing, merged or invented
+  inaccurate,   ///< ended by one of its own checks, and the outcome reports it
+  unstable,     ///< the solution grew without bound, and the outcome reports it
+  failed,       ///< the solver could not continue, and the outcome reports it
+  refused,      ///< the setting was not accepted
+  not_run       ///< not run: it would have taken longer than allowed
+};
+
+std::string_view to_string(Verdict verdict);
+
+/// The verdict on a run that was accepted.
+Verdict judge(const Result& run, const EventErrors& errors);
+
+/// A variant of a case, run and judged by a reference; compare, work-precision and stability
+/// list such trials.
+struct Trial {
+  Setting setting;
+  Case input;
+  Verdict verdict = Verdict::not_run;
+  std::string message;  ///< why it is not right, in words
+  EventErrors errors;   ///< meaningful if right or of wrong count
+  Work work;
+  double seconds = 0.0;  ///< wall time of one run, set-up included
+  int repeats = 0;
+  double energy_error = 0.0;  ///< largest relative one of the run
+
+  bool reaches(double error) const { return verdict == Verdict::right && errors.maximum <= error; }
+};
+
+/// Runs `trial.input`, which ends at the reference's horizon, and judges it. An InvalidCase becomes
+/// a verdict, with an empty result.
+Result run_trial(Trial& trial, const Reference& reference, const Progress& progress = {});
+
+}  // namespace subimpact

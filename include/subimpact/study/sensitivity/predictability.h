@@ -1,0 +1,36 @@
+#pragma once
+
+/// How far a strike with scattering numbers can be predicted.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "subimpact/study/sensitivity/sensitivity.h"
+
+namespace subimpact {
+
+/// Relative standard deviations of numbers of a case, by key; independent of each other.
+using Scatter = std::map<std::string, double>;
+
+/// The standard deviation of a number with these derivatives, one per key of the study: the root of
+/// the sum of (df/d ln p s_p)^2, each derivative enlarged by its error. None if a derivative by a
+/// scattering key is not known.
+std::optional<double> deviation_of(const std::vector<std::optional<Derivative>>& by_key,
+                                   const std::vector<std::string>& keys, const Scatter& scatter);
+
+/// Sets the standard deviations of starts and ends of a result, and Result::predictability, from a
+/// study of the same case by the keys that scatter. docs/theory.md, "Derivatives and
+/// predictability", lists what makes a sub-impact unpredictable.
+void set_predictability(Result& result, const Sensitivity& study, const Scatter& scatter);
+
+/// The keys of a case that scatter and by which results have a derivative.
+std::vector<std::string> scattering_keys(const Case& input);
+
+/// Makes the study that a case's scatter needs (sensitivity()) and sets the predictability of its
+/// result. Does nothing if no scatter has an effect. If the study fails or is interrupted, the
+/// result has a warning.
+void add_predictability(Result& result, const Case& input, SensitivityOptions options = {});
+
+}  // namespace subimpact

@@ -1,0 +1,340 @@
+#include "subimpact/case/doubtful_units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "case/problem.h"
+#include "model/contact/contact_laws.h"
+#include "model/mesh/modes.h"
+#include "numerics/units.h"
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+// Beyond these a value is doubtful. They lie well outside the values of real beams, strikers and
+// materials, so that no plausible scene gets a warning.
+constexpr double softest = 1e6;            // Pa: soft rubber
+constexpr double stiffest = 2e12;          // Pa: diamond has 1.2e12
+constexpr double weakest = 1e4;            // Pa: lead yields at some 1e7
+constexpr double smallest_yield = 1e-6;    // strain at yield: soft metals have 1e-5
+constexpr double lightest = 25.0;          // kg/m3: packing foam
+constexpr double largest_yield = 0.05;     // yield stress over Young's modulus
+constexpr double heaviest = 3e4;           // kg/m3: osmium has 22600
+constexpr double heaviest_beam = 1e6;      // kg
+constexpr double longest = 500.0;          // m
+constexpr double most_slender = 1e4;       // length over thickness
+constexpr double widest = 10.0;            // width over length
+constexpr double largest_nose = 5.0;       // its radius over the length
+constexpr double fastest = 1e3;            // m/s: a rifle bullet
+constexpr double most_periods = 300.0;     // end time over the beam's first period
+constexpr double long_run = 0.5;           // s
+constexpr double heavy_striker = 100.0;    // kg
+constexpr double heaviest_in_grams = 1e4;  // kg: heavier strikers are not given in g
+constexpr double most_beam_masses = 500.0;
+constexpr double one_metre = 1.0;
+
+struct OtherUnit {
+  const char* name;
+  double factor;  ///< to the case file's unit
+};
+
+// "; if MPa was meant, write 7.196e+10", for each unit in which the value is usual: `low` to
+// `high`.
+std::string proposal(double value, std::initializer_list<OtherUnit> units, double low,
+                     double high) {
+  std::string text;
+  for (const OtherUnit& unit : units) {
+    const double meant = value * unit.factor;
+    if (meant < low || meant > high) continue;
+    text += text.empty() ? fmt::format("; if {} was meant, write {:.6g}", unit.name, meant)
+                         : fmt::format(", if {} was, {:.6g}", unit.name, meant);
+  }
+  return text;
+}
+
+class Doubts {
+ public:
+  explicit Doubts(const Case& input)
+      : case_(input), beam_(input.scene.beam), is_rigid_(input.model.mesh == MeshKind::rigid) {
+    if (!is_rigid_) {  // a rigid body may have any shape and mass
+      lengths();
+      times();
+    }
+    materials();
+    striker();
+  }
+
+  std::vector<std::string> sentences;
+
+ private:
+  // "beam.length is 201 m", the reason and what to write if one of the units was meant.
+  void doubt(const char* name, const std::string& reason, std::initializer_list<OtherUnit> units,
+             double low = 0.0, double high = INFINITY) {
+    const CaseKey& key = *find_case_key(name);
+    const double value = std::get<double>(*key.get(case_));
+    sentences.push_back(fmt::format("{} is {:.6g} {}{}{}", name, value, key.unit, reason,
+                                    proposal(value, units, low, high)));
+  }
+
+  // Doubts a length: out of proportion to another one, or one of lengths that are all doubtful.
+  void length(const char* key, double value, bool out_of_proportion, double other,
+              const char* other_name, bool because_of_all) {
+    if (out_of_proportion) {
+      doubt(key, fmt::format(", {:.3g} times the beam's {}", value / other, other_name),
+            {{"mm", 1e-3}});
+    } else if (because_of_all) {
+      doubt(key, ": " + size_and_mass(), {{"mm", 1e-3}});
+    }
+  }
+
+  std::string size_and_mass() const {
+    const double mass = beam_.mass();
+    return fmt::format(
+        "a beam of {:.4g} m x {:.4g} m x {:.4g} m weighs {}", beam_.length,
+        beam_.outer_solid().width, beam_.height(),
+        mass >= 1e4 ? fmt::format("{:.0f} t", 1e-3 * mass) : fmt::format("{:.3g} kg", mass));
+  }
+
+  // The density is kept within usual values: lengths are not doubtful where it is wrong.
+  bool is_too_large() const {
+    const double volume = beam_.length * beam_.area();
+    return volume * std::clamp(beam_.density, 1e3, heaviest) > heaviest_beam;
+  }
+
+  void lengths() {
+    const double l = beam_.length, b = beam_.outer_solid().width, h = beam_.height();
+    const bool large = is_too_large();
+    const bool slender = h > 0.0 && l > most_slender * h;
+    const bool deep = h > l;
+    const bool wide = b > widest * l;
+    const bool any = large || l > longest || slender || deep || wide;
+    // Where one length seems to be in mm, another one above a metre is probably in mm too.
+    const auto doubtful_beside = [&](double value) { return any && value > one_metre; };
+    length("beam.length", l, slender, h, "thickness", large || l > longest);
+    if (!beam_.is_round()) {
+      length(width_key(beam_), b, wide, l, "length", large || doubtful_beside(b));
+    }
+    length(height_key(beam_), h, deep, l, "length", large || doubtful_beside(h));
+    const double nose = case_.scene.striker.nose_radius.value_or(0.0);
+    const bool blunt = nose > largest_nose * l && nose > one_metre;
+    length("striker.nose_radius", nose, blunt, l, "length", false);
+    if (!blunt && doubtful_beside(nose)) {
+      doubt("striker.nose_radius", ", like the lengths of the beam", {{"mm", 1e-3}});
+    }
+  }
+
+  void times() {
+    const double end = case_.end_time;
+    const auto longer_than_run = [&](const char* key, const std::optional<double>& time) {
+      if (!time || *time <= end) return;
+      doubt(key, ", longer than the whole run", {{"ms", 1e-3}, {"us", 1e-6}}, 0.0, 1e-2 * end);
+    };
+    longer_than_run("solver.step", case_.solver.step);
+    longer_than_run("accuracy.event_times", case_.accuracy.event_times);
+    if (case_.stop != StopRule::end_time || end <= long_run) return;  // only a limit, or short
+    const double period = 2.0 * M_PI / flexural_frequencies(beam_, 1).front();
+    if (end <= most_periods * period) return;
+    doubt("time.end",
+          fmt::format(", {:.3g} periods of the beam's slowest vibration, {:.3g} s each",
+                      end / period, period),
+          {{"ms", 1e-3}, {"us", 1e-6}}, 1e-2 * period, most_periods * period);
+  }
+
+  void modulus(const char* key, double E) {
+    if (E >= softest && E <= stiffest) return;
+    doubt(key,
+          E < softest ? ", softer than soft rubber (some 1e6 Pa)"
+                      : ", stiffer than diamond (1.2e12 Pa)",
+          {{"MPa", 1e6}, {"GPa", 1e9}, {"mPa", 1e-3}}, 1e8, stiffest);
+  }
+
+  void materials() {
+    const double rho = beam_.density, E = beam_.youngs_modulus, Y = beam_.yield_stress;
+    if (rho < lightest || (rho > heaviest && !is_rigid_)) {
+      doubt("beam.density",
+            rho < lightest ? ", lighter than packing foam (some 25 kg/m3)"
+                           : ", heavier than osmium (22600 kg/m3)",
+            {{"g/cm3", 1e3}, {"t/mm3", 1e12}, {"g/m3", 1e-3}}, 50.0, heaviest);
+    }
+    modulus("beam.youngs_modulus", E);
+    const double striker = case_.scene.contact.striker_modulus.value_or(INFINITY);
+    if (std::isfinite(striker)) modulus("contact.striker_modulus", striker);
+    if (Y < weakest || (E <= stiffest && Y < smallest_yield * E)) {
+      doubt("beam.yield_stress",
+            Y < weakest ? std::string(", far weaker than lead (some 1e7 Pa)")
+                        : fmt::format(", reached at a strain of {:.1e} (metals: some 1e-3)", Y / E),
+            {{"MPa", 1e6}, {"GPa", 1e9}}, 1e6, 2e10);
+    } else if (std::isfinite(Y) && E >= softest && Y > largest_yield * E) {
+      doubt("beam.yield_stress",
+            fmt::format(", reached at a strain of {:.2g} (metals: some 1e-3){}", Y / E,
+                        Y > E ? "; are beam.youngs_modulus and beam.yield_stress swapped?" : ""),
+            {{"kPa", 1e-3}, {"Pa", 1e-6}}, 1e6, largest_yield * E);
+    }
+  }
+
+  void striker() {
+    const double m = case_.scene.striker.mass;
+    const bool is_heavy = m > std::max(heavy_striker, most_beam_masses * beam_.mass());
+    if (!is_rigid_ && is_heavy && m <= heaviest_in_grams) {
+      doubt("striker.mass",
+            fmt::format(", {:.3g} times the beam's {:.3g} kg", m / beam_.mass(), beam_.mass()),
+            {{"g", 1e-3}});
+    }
+    if (case_.scene.bodies().striker_velocity() <= fastest) return;
+    if (case_.scene.striker.drop_height) {
+      doubt("striker.drop_height", ", a fall that ends faster than a rifle bullet", {{"mm", 1e-3}});
+    } else {
+      doubt("striker.velocity", ", faster than a rifle bullet", {{"mm/s", 1e-3}});
+    }
+  }
+
+  const Case& case_;
+  const Beam& beam_;
+  bool is_rigid_;
+};
+
+constexpr double thickest_without_shear = 0.1;  // thickness over length
+constexpr double thickest_with_shear = 1.0 / 3.0;
+constexpr double largest_rotation = 0.1;     // rad
+constexpr double largest_deflection = 0.5;   // over the thickness, of a beam held at both ends
+constexpr double deepest_indentation = 0.1;  // over the nose radius
+constexpr double least_pull = 0.01;          // over the largest force of a support
+
+// Supports that hold the beam down, where it may only rest on them.
+void add_pulls(const Beam& beam, const Result& result, std::vector<std::string>& sentences) {
+  double largest = 0.0;
+  for (const auto& forces : result.reactions) {
+    if (forces) largest = std::max({largest, forces->largest.value, -forces->smallest.value});
+  }
+  for (std::size_t end = 0; end < result.reactions.size(); ++end) {
+    const auto& forces = result.reactions[end];
+    if (!forces || beam.ends[end] != EndSupport::pinned) continue;
+    if (!(forces->largest.value > least_pull * largest)) continue;
+    sentences.push_back(fmt::format(
+        "the support at x = {} pulls the beam by up to {:.3g} N, at {:.4g} us: a beam that only "
+        "rests on it would lift off there, which the model leaves out",
+        end == 0 ? "0" : "length", forces->largest.value, us * forces->largest.time));
+  }
+}
+
+// A system of units that agree with each other, in SI units, for files all in it.
+struct UnitSystem {
+  const char* name;
+  double length, mass, time;
+};
+constexpr UnitSystem unit_systems[] = {{"mm, t, s (with N and MPa)", 1e-3, 1e3, 1.0},
+                                       {"mm, kg, ms (with kN and GPa)", 1e-3, 1.0, 1e-3},
+                                       {"mm, g, ms (with N and MPa)", 1e-3, 1e-3, 1e-3},
+                                       {"cm, g, s (with dyn)", 1e-2, 1e-3, 1.0},
+                                       {"cm, g, us (with Mbar)", 1e-2, 1e-3, 1e-6}};
+
+// From the unit of a key in such a system to SI; none for units without a dimension in these.
+std::optional<double> factor_of(std::string_view unit, const UnitSystem& of) {
+  struct Dimension {
+    std::string_view unit;
+    double length, mass, time;
+  };
+  constexpr Dimension dimensions[] = {
+      {"m", 1, 0, 0},    {"kg", 0, 1, 0},     {"s", 0, 0, 1},          {"m/s", 1, 0, -1},
+      {"N", 1, 1, -2},   {"Pa", -1, 1, -2},   {"N/m", 0, 1, -2},       {"N/m2", -1, 1, -2},
+      {"1/s", 0, 0, -1}, {"rad/s", 0, 0, -1}, {"s/m", -1, 0, 1},       {"m/s2", 1, 0, -2},
+      {"Hz", 0, 0, -1},  {"kg/m3", -3, 1, 0}, {"N/m^1.5", -0.5, 1, -2}};
+  const auto found = std::ranges::find(dimensions, unit, &Dimension::unit);
+  if (found == std::end(dimensions)) return std::nullopt;
+  return std::pow(of.length, found->length) * std::pow(of.mass, found->mass) *
+         std::pow(of.time, found->time);
+}
+
+// The case if its file were in that system, and what to write then: "striker.mass = 0.5, ..".
+std::pair<Case, std::string> meant_in(const UnitSystem& system, const Case& input) {
+  Case meant = input;
+  std::string values;
+  for (const CaseKey& key : case_keys()) {
+    const std::optional<KeyValue> value = key.get(input);
+    const bool is_linear = input.scene.contact.kind == ContactKind::linear;
+    const std::optional<double> factor = factor_of(key.name != "contact.stiffness" ? key.unit
+                                                   : is_linear                     ? "N/m"
+                                                                                   : "N/m^1.5",
+                                                   system);
+    const bool is_given = value && value != key.get(Case{});
+    if (!is_given || !factor || *factor == 1.0) continue;
+    std::string text = " likewise";
+    if (const auto* number = std::get_if<double>(&*value)) {
+      if (!std::isfinite(*number)) continue;
+      key.set(meant, *factor * *number);
+      text = fmt::format(" = {:.6g}", *factor * *number);
+    }
+    values += (values.empty() ? "" : ", ") + key.name + text;
+  }
+  return {std::move(meant), values};
+}
+
+}  // namespace
+
+std::vector<std::string> doubtful_units(const Case& input) {
+  std::vector<std::string> doubts = Doubts(input).sentences;
+  if (doubts.size() < 2) return doubts;
+  for (const UnitSystem& system : unit_systems) {
+    const auto [meant, values] = meant_in(system, input);
+    if (!Doubts(meant).sentences.empty()) continue;
+    return {fmt::format("this file looks like {}, but numbers without a unit are SI: write {}",
+                        system.name, values)};
+  }
+  return doubts;
+}
+
+std::vector<std::string> beyond_the_model(const Case& input, const Result& result) {
+  const Beam& beam = input.scene.beam;
+  const std::optional<double>& nose = input.scene.striker.nose_radius;
+  const bool is_rigid = input.model.mesh == MeshKind::rigid;
+  const bool is_held = beam.ends[0] != EndSupport::free && beam.ends[1] != EndSupport::free;
+  const double indentation = result.max_indentation, set = result.largest_displacement;
+  std::vector<std::string> sentences;
+  const auto add = [&]<class... Values>(bool beyond, fmt::format_string<const Values&...> text,
+                                        const Values&... values) {
+    if (beyond) sentences.push_back(fmt::format(text, values...));
+  };
+  add(result.largest_rotation > largest_rotation,
+      "{} by up to {:.2g} rad: the model is for small rotations (below {} rad)",
+      is_rigid ? "the beam turns" : "sections turn", result.largest_rotation, largest_rotation);
+  const double thickness = beam.height() / beam.length;
+  add(!is_rigid && beam.shears() && thickness > thickest_with_shear,
+      "the beam's thickness is {:.2g} of its length: plane sections, as in every beam theory, do "
+      "not describe so thick a body",
+      thickness);
+  add(!is_rigid && !beam.shears() && thickness > thickest_without_shear,
+      "the beam's thickness is {:.2g} of its length, and its theory leaves out shear; use "
+      "beam.theory = \"timoshenko\"",
+      thickness);
+  add(!is_rigid && is_held && set / beam.height() > largest_deflection,
+      "the struck point moves by {:.3g} mm, {:.2g} of the thickness, on a beam held at both ends: "
+      "if its supports cannot approach each other, stretching, which the model leaves out, "
+      "stiffens it",
+      mm * set, set / beam.height());
+  add_pulls(beam, result, sentences);
+  if (!nose) return sentences;
+  add(indentation / *nose > deepest_indentation,
+      "the indentation reaches {:.3g} mm, {:.2g} of the nose radius: contact laws are for small "
+      "indentations (below {} of it)",
+      mm * indentation, indentation / *nose, deepest_indentation);
+  const GapRadii radii = gap_radii(input.scene);
+  double square = *nose * indentation;  // of Hertz's contact radius
+  if (!input.parts.contact_law && input.scene.contact.is_from_mid_plane()) {
+    const double stiffness = contact_law_of(input)->scales().stiffness;
+    square = *nose * std::pow(result.max_force / stiffness, 2.0 / 3.0);
+  }
+  const double pressure = 1.5 * result.max_force / (M_PI * square);
+  add(input.scene.contact.kind == ContactKind::hertz && radii.is_circle() &&
+          pressure > yield_pressure_over_stress * beam.yield_stress,
+      "the contact pressure reaches {:.3g} MPa, {:.2g} times the beam's yield stress: a Hertz "
+      "contact yields from {} times on, which contact.law = \"hertz\" leaves out and \"sphere\" "
+      "has",
+      MPa * pressure, pressure / beam.yield_stress, yield_pressure_over_stress);
+  return sentences;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,239 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/keys/slips.h"
+#include "case/keys/units.h"
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+std::string in_quotes(const std::string& text) { return '"' + text + '"'; }
+
+std::string quoted_list(std::vector<std::string> names) {
+  for (std::string& name : names) name = in_quotes(name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// A value of another type than the key's is shown together with its type.
+std::string typed(const KeyValue& value) {
+  static constexpr const char* kinds[] = {
+      "a boolean", "a whole number",    "a floating-point number",   "a text",
+      "a list",    "a list of numbers", "a list of loads or springs"};
+  return fmt::format("{} ({})", kinds[value.index()], to_text(value));
+}
+
+bool is_choice(const CaseKey& key, const std::string& name) {
+  return std::ranges::find(key.choices, name, &Choice::name) != key.choices.end();
+}
+
+std::optional<std::string> number_problem(const CaseKey& key, double number,
+                                          const KeyValue& value) {
+  const bool fits = key.type != KeyType::count || std::abs(number) <= 2147483647.0;
+  if (fits && key.limits.hold(number)) return std::nullopt;
+  return refusal(key, to_text(value));
+}
+
+// The choice meant by a name that is none; empty if there is no telling.
+std::string choice_meant(const CaseKey& key, const std::string& name) {
+  if (is_choice(key, name)) return name;
+  const std::string own = own_name(key.name, name);
+  return own.empty() ? nearest_name(name, key.choice_names()) : own;
+}
+
+std::optional<std::string> choice_problem(const CaseKey& key, const std::string& name) {
+  if (is_choice(key, name)) return std::nullopt;
+  const std::string removed = advice_on_removed(key.name, name);
+  if (!removed.empty()) return refusal(key, in_quotes(name)) + "; " + removed;
+  const std::string meant = choice_meant(key, name);
+  return refusal(key, in_quotes(name)) +
+         (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?");
+}
+
+// For one name where two are required: the pair that is probably meant.
+std::string pair_hint(const CaseKey& key, const std::string& name) {
+  if (key.name == "beam.ends" && name == "cantilever") {
+    return R"(; did you mean ["clamped", "free"]?)";
+  }
+  const std::string meant = choice_meant(key, name);
+  return meant.empty() ? "" : fmt::format("; did you mean [{0}, {0}]?", in_quotes(meant));
+}
+
+std::optional<std::string> pair_problem(const CaseKey& key, const std::vector<std::string>& names,
+                                        const KeyValue& value) {
+  if (names.size() == 1) return refusal(key, to_text(value)) + pair_hint(key, names[0]);
+  if (names.size() != 2) return refusal(key, to_text(value));
+  for (const std::string& name : names) {
+    if (!is_choice(key, name)) return choice_problem(key, name);
+  }
+  return std::nullopt;
+}
+
+// The refusal of the first number in a list of loads or springs that is not allowed.
+std::optional<std::string> placed_problem(const CaseKey& key, const PlacedValues& value) {
+  const auto refuse = [&](const std::string& what) { return refusal(key, "a list with " + what); };
+  for (const auto& [position, table] : value.entries) {
+    if (!(position >= 0.0 && position <= 1.0)) return refuse(fmt::format("position {}", position));
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      const auto [time, number] = table[i];
+      if (!key.limits.hold(number)) return refuse(fmt::format("{} {}", value.quantity, number));
+      if (!(time >= 0.0 && std::isfinite(time)) || (i > 0 && time < table[i - 1].first)) {
+        return refuse(fmt::format("time {} in a table", time));
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+// What to change when the value is right but written as another type.
+std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (text == nullptr) {
+    const bool is_decimal = key.type == KeyType::count && std::holds_alternative<double>(value);
+    return is_decimal ? "; write it without decimal point and exponent" : "";
+  }
+  if (key.type == KeyType::pair) return pair_hint(key, *text);
+  if (key.type == KeyType::flag) return "; write it without quotes";
+  if (key.type != KeyType::number && key.type != KeyType::count) return {};
+  if (const std::string meant = nearest_name(*text, key.choice_names()); !meant.empty()) {
+    return "; did you mean " + in_quotes(meant) + "?";
+  }
+  const std::string hint = key.type == KeyType::number ? decimal_comma_hint(*text) : "";
+  if (const std::string_view unit = split_unit(*text).unit; hint.empty() && !unit.empty()) {
+    const std::string units = units_beside(key.unit);
+    return units.empty() ? "; write the number without a unit"
+                         : fmt::format("; \"{}\" is none of its units: {}", unit, units);
+  }
+  return hint.empty() ? "; numbers are written without quotes" : hint;
+}
+
+std::string remedy(const CaseKey& key) {
+  if (key.required) {
+    return fmt::format("give the {}{}", key.meaning, key.unit.empty() ? "" : " in " + key.unit);
+  }
+  const bool as_written = key.default_text.find(':') == std::string::npos;
+  return fmt::format("correct it, or leave it out for the default{}{}", as_written ? ", " : " (",
+                     key.default_text) +
+         (as_written ? "" : ")");
+}
+
+}  // namespace
+
+std::string CaseKey::table() const {
+  const auto dot = name.rfind('.');
+  return dot == std::string::npos ? std::string() : name.substr(0, dot);
+}
+
+std::string CaseKey::leaf() const {
+  const auto dot = name.rfind('.');
+  return dot == std::string::npos ? name : name.substr(dot + 1);
+}
+
+std::vector<std::string> CaseKey::choice_names() const {
+  std::vector<std::string> names;
+  for (const Choice& choice : choices) names.push_back(choice.name);
+  return names;
+}
+
+std::string to_text(const KeyValue& value) {
+  struct Writer {
+    std::string operator()(bool x) const { return x ? "true" : "false"; }
+    std::string operator()(std::int64_t x) const { return std::to_string(x); }
+    std::string operator()(double x) const { return fmt::format("{}", x); }
+    std::string operator()(const std::string& x) const { return in_quotes(x); }
+    std::string operator()(const std::vector<std::string>& x) const {
+      return fmt::format("[{}]", quoted_list(x));
+    }
+    std::string operator()(const std::vector<double>& x) const {
+      return fmt::format("[{}]", fmt::join(x, ", "));
+    }
+    std::string operator()(const PlacedValues& x) const {
+      std::vector<std::string> entries;
+      for (const auto& [position, table] : x.entries) {
+        std::string amount = fmt::format("{} = {}", x.quantity, table.front().second);
+        if (table.size() > 1) {
+          std::vector<std::string> pairs;
+          for (const auto& [t, f] : table) pairs.push_back(fmt::format("[{}, {}]", t, f));
+          amount = fmt::format("table = [{}]", fmt::join(pairs, ", "));
+        }
+        entries.push_back(fmt::format("{{ position = {}, {} }}", position, amount));
+      }
+      return fmt::format("[{}]", fmt::join(entries, ", "));
+    }
+  };
+  return std::visit(Writer{}, value);
+}
+
+std::string allowed_values(const CaseKey& key) {
+  const std::string unit = key.unit.empty() ? "" : fmt::format(" ({})", key.unit);
+  const std::string range = key.range.empty() ? "" : ", " + key.range;
+  switch (key.type) {
+    case KeyType::number:
+      return "a number" + range + unit +
+             (key.choices.empty() ? "" : ", or " + quoted_list(key.choice_names()));
+    case KeyType::count:
+      return "a whole number" + range + unit;
+    case KeyType::flag:
+      return "true or false";
+    case KeyType::text:
+      return "a text in quotes";
+    case KeyType::choice:
+      return (key.choices.size() == 1 ? "" : "one of ") + quoted_list(key.choice_names());
+    case KeyType::pair:
+      return "a list of two out of " + quoted_list(key.choice_names());
+    case KeyType::numbers:
+      return "a list of numbers" + (range.empty() ? "" : ", each " + key.range) + unit;
+    case KeyType::placed:
+      if (key.leaf() == "forces") {
+        return "a list of { position = x, force = F } or { position = x, table = [[t, F], ...] }, "
+               "x "
+               "from 0 to 1, F in N, t in s, 0 or above and not descending";
+      }
+      return fmt::format("a list of {{ position = x, stiffness = k }}, x from 0 to 1, k {}{}",
+                         key.range, unit);
+  }
+  return {};
+}
+
+std::string refusal(const CaseKey& key, const std::string& found) {
+  return fmt::format("is {}; allowed: {}; {}", found, allowed_values(key), remedy(key));
+}
+
+std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& value) {
+  const KeyType type = key.type;
+  const auto* word = std::get_if<std::string>(&value);
+  if (type == KeyType::number && word && is_choice(key, *word)) return std::nullopt;
+  if (type == KeyType::text && std::holds_alternative<std::string>(value)) return std::nullopt;
+  if (type == KeyType::flag && std::holds_alternative<bool>(value)) return std::nullopt;
+  if (const auto* number = std::get_if<double>(&value); number && type == KeyType::number) {
+    return number_problem(key, *number, value);
+  }
+  const bool is_number = type == KeyType::number || type == KeyType::count;
+  if (const auto* count = std::get_if<std::int64_t>(&value); count && is_number) {
+    return number_problem(key, static_cast<double>(*count), value);
+  }
+  if (const auto* name = std::get_if<std::string>(&value); name && type == KeyType::choice) {
+    return choice_problem(key, *name);
+  }
+  if (const auto* names = std::get_if<std::vector<std::string>>(&value)) {
+    if (type == KeyType::pair) return pair_problem(key, *names, value);
+    if (type == KeyType::numbers && names->empty()) return std::nullopt;
+    if (type == KeyType::placed && names->empty()) return std::nullopt;
+  }
+  if (const auto* placed = std::get_if<PlacedValues>(&value); placed && type == KeyType::placed) {
+    return placed_problem(key, *placed);
+  }
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value);
+      numbers && type == KeyType::numbers) {
+    for (const double number : *numbers) {
+      if (auto problem = number_problem(key, number, value)) return problem;
+    }
+    return std::nullopt;
+  }
+  return refusal(key, typed(value)) + spelling_hint(key, value);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,82 @@
+#include "case/keys/units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace subimpact {
+namespace {
+
+struct NamedUnit {
+  std::string_view of_keys, name;
+  int power;            // of ten, to the unit of keys
+  double factor = 1.0;  // a whole number, besides
+};
+
+// clang-format off
+constexpr NamedUnit named_units[] = {
+    {"m", "m", 0}, {"m", "mm", -3}, {"m", "um", -6}, {"m", "cm", -2}, {"m", "km", 3}, {"m", "nm", -9},
+    {"m", "in", -4, 254}, {"m", "inch", -4, 254},
+    {"s", "s", 0}, {"s", "ms", -3}, {"s", "us", -6}, {"s", "ns", -9}, {"s", "ps", -12},
+    {"kg", "kg", 0}, {"kg", "g", -3}, {"kg", "t", 3}, {"kg", "mg", -6}, {"kg", "lb", -8, 45359237},
+    {"m/s", "m/s", 0}, {"m/s", "mm/s", -3}, {"m/s", "km/s", 3}, {"m/s2", "m/s2", 0},
+    {"Pa", "Pa", 0}, {"Pa", "kPa", 3}, {"Pa", "MPa", 6}, {"Pa", "GPa", 9}, {"Pa", "N/mm2", 6},
+    {"kg/m3", "kg/m3", 0}, {"kg/m3", "g/cm3", 3}, {"1/s", "1/s", 0}, {"rad/s", "rad/s", 0}, {"s/m", "s/m", 0},
+    {"N", "N", 0}, {"N", "mN", -3}, {"N", "kN", 3}, {"N", "MN", 6}, {"N", "uN", -6}, {"N", "nN", -9},
+    {"Hz", "Hz", 0}, {"Hz", "kHz", 3}, {"Hz", "MHz", 6}, {"N/m2", "N/m2", 0},
+    {"N/m", "N/m", 0}, {"N/m", "N/mm", 3}, {"N/m", "kN/m", 3}, {"N/m", "MN/m", 6}, {"N/m", "GN/m", 9},
+    {"N/m^1.5", "N/m^1.5", 0}, {"N/m^1.5", "kN/m^1.5", 3}, {"N/m^1.5", "MN/m^1.5", 6}, {"N/m^1.5", "GN/m^1.5", 9},
+};
+// clang-format on
+
+// Whether a unit of keys is that one, or "N/m^1.5 or N/m" with that one.
+bool has_unit(std::string_view unit, std::string_view of_keys) {
+  const auto at = std::min(unit.find(" or "), unit.size());
+  return unit.substr(0, at) == of_keys || (at < unit.size() && unit.substr(at + 4) == of_keys);
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = std::min(text.find_first_not_of(" \t"), text.size());
+  return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
+NumberAndUnit split_unit(std::string_view text) {
+  text = trimmed(text);
+  const std::string copy(text);
+  char* rest = nullptr;
+  std::strtod(copy.c_str(), &rest);
+  const auto n = static_cast<std::size_t>(rest - copy.c_str());
+  const std::string_view number = text.substr(0, n);
+  if (number.find_first_of("0123456789") == number.npos) return {};  // "infinite"
+  return {number, trimmed(text.substr(n))};
+}
+
+std::optional<double> value_in(std::string_view unit, std::string_view text) {
+  const auto [number, given] = split_unit(text);
+  for (const auto& [of_keys, name, power, factor] : named_units) {
+    if (number.empty() || !has_unit(unit, of_keys) || name != given) continue;
+    if (factor != 1.0) {
+      return std::strtod(std::string(number).c_str(), nullptr) * factor / std::pow(10.0, -power);
+    }
+    const std::size_t e = std::min(number.find_first_of("eE"), number.size());
+    const int exponent = e < number.size() ? std::atoi(number.data() + e + 1) : 0;
+    const std::string scaled =
+        std::string(number.substr(0, e)) + 'e' + std::to_string(exponent + power);
+    return std::strtod(scaled.c_str(), nullptr);
+  }
+  return std::nullopt;
+}
+
+std::string units_beside(std::string_view unit, std::string_view separator) {
+  std::string names;
+  for (const NamedUnit& known : named_units) {
+    if (!has_unit(unit, known.of_keys)) continue;
+    names += names.empty() ? "" : separator;
+    names += known.name;
+  }
+  return names;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <toml++/toml.h>
+
+#include "io/records/record.h"
+
+namespace subimpact {
+
+/// Keys, tables and lists of a case are nested three deep at most.
+constexpr std::size_t deepest_nesting = 32;
+
+/// The number, from 1, of the first line of a TOML text on which more parts of a dotted key, or
+/// more open lists and inline tables, follow one another than deepest_nesting. toml++ takes dotted
+/// keys of any depth and frees their tables by recursion, which exhausts the stack. A text that is
+/// no TOML is counted right up to its first error, where its parser stops.
+std::optional<std::size_t> too_deep_at(std::string_view toml);
+
+/// What a line (from 1) such as "mass = 0,201" or "mass = 201 g" has in place of a number, and how
+/// to write it; empty if it has no such thing. Lists are left alone: in [0,5] there are two
+/// numbers.
+std::string misspelt_number_in(std::string_view text, std::size_t line_number);
+
+/// The value of a node. Dates and times, which no key holds, are null.
+Json json_of(const toml::node& node);
+
+/// What a node is, in words: "a text".
+std::string describe_type(const toml::node& node);
+
+}  // namespace subimpact

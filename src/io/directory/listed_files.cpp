@@ -1,0 +1,190 @@
+#include "io/directory/listed_files.h"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <sstream>
+#include <system_error>
+
+#include "io/records/record.h"
+#include "subimpact/io/read_results.h"
+#include "subimpact/io/results.h"
+
+namespace subimpact {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int manifest_layout = 1;
+const std::string staging_prefix = ".subimpact-";
+constexpr std::size_t n_identity = 32;  // digits
+constexpr const char* hexadecimal = "0123456789abcdef";
+
+Json fingerprints_to_json(const std::map<std::string, Fingerprint>& fingerprints) {
+  Json json = Json::object();
+  for (const auto& [name, fingerprint] : fingerprints) {
+    json[name] = {{"bytes", fingerprint.bytes}, {"sha256", fingerprint.sha256}};
+  }
+  return json;
+}
+
+// Names are those of files in the directory itself: a manifest from elsewhere must not lead out.
+std::map<std::string, Fingerprint> fingerprints_from(const Json& json) {
+  std::map<std::string, Fingerprint> fingerprints;
+  for (const auto& [name, entry] : json.items()) {
+    if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) {
+      fail<ResultsError>("\"{}\" is not the name of a file of results", name);
+    }
+    fingerprints[name] = {integer<std::uintmax_t>(entry.at("bytes")),
+                          entry.at("sha256").get<std::string>()};
+  }
+  return fingerprints;
+}
+
+[[noreturn]] void refuse_to_read(const fs::path& path, const char* cause) {
+  fail<ResultsError>("{}: cannot be read ({}); give the output directory of `subimpact run`",
+                     path.string(), cause);
+}
+
+// A pipe or a device may never end.
+void check_is_regular(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    refuse_to_read(path, "it is no regular file");
+  }
+}
+
+std::ifstream open_file(const fs::path& path) {
+  check_is_regular(path);
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse_to_read(path, std::strerror(errno));
+  return file;
+}
+
+std::string text_of(std::istream& file, const fs::path& path) {
+  std::ostringstream text;
+  errno = 0;
+  if (!(text << file.rdbuf())) {
+    refuse_to_read(path, errno != 0 ? std::strerror(errno) : "it is empty");
+  }
+  return std::move(text).str();
+}
+
+}  // namespace
+
+Fingerprint fingerprint_of(std::istream& file) {
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
+                                                                        EVP_MD_CTX_free);
+  EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+  Fingerprint fingerprint;
+  std::array<char, 1 << 16> buffer;
+  while (file.read(buffer.data(), buffer.size()), file.gcount() > 0) {
+    const auto n = static_cast<std::size_t>(file.gcount());
+    EVP_DigestUpdate(context.get(), buffer.data(), n);
+    fingerprint.bytes += n;
+  }
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+  unsigned int length = 0;
+  EVP_DigestFinal_ex(context.get(), digest.data(), &length);
+  for (unsigned int i = 0; i < length; ++i) fingerprint.sha256 += fmt::format("{:02x}", digest[i]);
+  file.clear();
+  file.seekg(0);
+  return fingerprint;
+}
+
+std::optional<Fingerprint> fingerprint_of(const fs::path& path) {
+  if (!fs::is_regular_file(fs::symlink_status(path))) return {};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::system_error(errno, std::generic_category(), path.string());
+  return fingerprint_of(file);
+}
+
+fs::path staging_of(const fs::path& directory, const std::string& commit) {
+  return directory / (staging_prefix + commit);
+}
+
+bool is_staging(const std::string& name) {
+  const std::size_t n_prefix = staging_prefix.size();
+  return name.size() == n_prefix + n_identity && name.starts_with(staging_prefix) &&
+         name.find_first_not_of(hexadecimal, n_prefix) == std::string::npos;
+}
+
+std::optional<Manifest> read_manifest(const fs::path& directory) {
+  const fs::path path = directory / manifest_name;
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(path, ignored))) return {};
+  Manifest manifest;
+  read_json(path, read_whole_file(path), "a manifest of this program", "", [&](const Json& json) {
+    if (integer<int>(json.at("subimpact_manifest")) > manifest_layout) {
+      throw ResultsError("a later version of this program wrote it; use that version");
+    }
+    manifest.kind = json.at("kind").get<std::string>();
+    manifest.identity = json.at("identity").get<std::string>();
+    manifest.commit = json.at("commit").get<std::string>();
+    manifest.files = fingerprints_from(json.at("files"));
+    manifest.replaced = fingerprints_from(json.at("replaced"));
+    if (manifest.commit.find_first_not_of(hexadecimal) != std::string::npos) {
+      throw ResultsError("\"commit\" is not a hexadecimal number");
+    }
+  });
+  return manifest;
+}
+
+std::string to_json(const Manifest& manifest) {
+  const Json json = {{"subimpact_manifest", manifest_layout},
+                     {"kind", manifest.kind},
+                     {"identity", manifest.identity},
+                     {"program", "subimpact " + project_version()},
+                     {"commit", manifest.commit},
+                     {"files", fingerprints_to_json(manifest.files)},
+                     {"replaced", fingerprints_to_json(manifest.replaced)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string read_whole_file(const fs::path& path) {
+  std::ifstream file = open_file(path);
+  return text_of(file, path);
+}
+
+ListedFiles::ListedFiles(fs::path directory)
+    : directory_(std::move(directory)), manifest_(read_manifest(directory_)) {}
+
+bool ListedFiles::are_listed() const {
+  return manifest_ && manifest_->kind != "figures" && manifest_->kind != "report";
+}
+
+std::ifstream ListedFiles::open(const std::string& name) const {
+  const fs::path path = directory_ / name;
+  if (!are_listed()) return open_file(path);
+  const auto listed = manifest_->files.find(name);
+  if (listed == manifest_->files.end()) {
+    fail<ResultsError>("{}: is not among the results of `subimpact {}` that {} lists",
+                       path.string(), manifest_->kind, manifest_name);
+  }
+  // A file that is not yet in its place waits under the name of its commit.
+  for (const fs::path& place : {path, staging_of(directory_, manifest_->commit) / name, path}) {
+    check_is_regular(place);
+    errno = 0;
+    std::ifstream file(place, std::ios::binary);
+    if (!file && errno == EACCES) refuse_to_read(place, std::strerror(errno));
+    if (file && fingerprint_of(file) == listed->second) return file;
+  }
+  const std::optional<Manifest> now = read_manifest(directory_);
+  if (now && now->commit != manifest_->commit) throw ReplacedMeanwhile();
+  fail<ResultsError>(
+      "{}: is not the file that the run wrote (its length or checksum differs from {}): it was "
+      "changed or cut short since; run the case again",
+      path.string(), manifest_name);
+}
+
+std::string ListedFiles::text(const std::string& name) const {
+  std::ifstream file = open(name);
+  return text_of(file, directory_ / name);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,134 @@
+#include "io/records/record.h"
+
+#include <algorithm>
+
+#include "case/keys/units.h"
+#include "case/refuse.h"
+
+namespace subimpact {
+namespace {
+
+constexpr int deepest_json = 16;
+
+const char* allowed_words(double value, Form form) {
+  if (form == Form::plain || form == Form::zero_is_null) return nullptr;
+  if (!std::isfinite(value)) return "a finite number";
+  if (form == Form::from_zero && value < 0.0) return "a finite number, 0 or above";
+  if (form == Form::above_zero && value <= 0.0) return "a finite number above 0";
+  return nullptr;
+}
+
+Json json_of(const PlacedValues& placed) {
+  Json list = Json::array();
+  for (const auto& [position, table] : placed.entries) {
+    list.push_back({{"position", position}});
+    if (table.size() > 1) {
+      list.back()["table"] = table;
+    } else {
+      list.back()[placed.quantity] = table.front().second;
+    }
+  }
+  return list;
+}
+
+// A number, or a text of one with its unit.
+std::optional<double> number_in(const Json& json, const std::string& unit) {
+  if (json.is_string()) return value_in(unit, json.get<std::string>());
+  return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
+}
+
+// A list of things at points, each a position and one other number or, of forces, a table.
+std::optional<KeyValue> placed_in(const Json& list, const CaseKey& key) {
+  const bool forces = key.leaf() == "forces";
+  PlacedValues values{forces ? "force" : "stiffness", {}};
+  for (const Json& item : list) {
+    if (!item.is_object() || item.size() != 2 || !item.contains("position")) return std::nullopt;
+    const auto position = number_in(item.at("position"), "");
+    const bool is_table = forces && item.contains("table");
+    if (!position || (!is_table && !item.contains(values.quantity))) return std::nullopt;
+    const Json rows = is_table ? item.at("table") : Json{{0.0, item.at(values.quantity)}};
+    if (!rows.is_array() || rows.size() < (is_table ? 2 : 1)) return std::nullopt;
+    auto& table = values.entries.emplace_back(*position).table;
+    for (const Json& row : rows) {
+      if (!row.is_array() || row.size() != 2) return std::nullopt;
+      const auto time = number_in(row[0], "s"), amount = number_in(row[1], key.unit);
+      if (!time || !amount) return std::nullopt;
+      table.emplace_back(*time, *amount);
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+void read_json(const std::filesystem::path& path, const std::string& text, const char* what,
+               const char* remedy, const std::function<void(const Json&)>& use) {
+  // Copies of deeply nested values exhaust the stack.
+  const auto refuse_deep_nesting = [](int depth, Json::parse_event_t, Json&) {
+    if (depth <= deepest_json) return true;
+    fail<ResultsError>("is nested deeper than {}", deepest_json);
+  };
+  try {
+    use(Json::parse(text, refuse_deep_nesting));
+  } catch (const ResultsError& error) {
+    fail<ResultsError>("{}: {}{}", path.string(), error.what(), remedy);
+  } catch (const std::exception& error) {  // of JSON, or of a name or number in a text
+    fail<ResultsError>("{}: is not {} ({}){}", path.string(), what, error.what(), remedy);
+  }
+}
+
+Json json_of(const KeyValue& value) {
+  if (const auto* placed = std::get_if<PlacedValues>(&value)) return json_of(*placed);
+  return std::visit(
+      [](const auto& x) -> Json {
+        if constexpr (std::is_constructible_v<Json, decltype(x)>) return x;
+        return nullptr;
+      },
+      value);
+}
+
+std::optional<KeyValue> key_value_of(const CaseKey& key, const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number_integer()) return integer<std::int64_t>(json);
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return json.get<std::string>();
+  if (!json.is_array()) return std::nullopt;
+  if (key.type == KeyType::placed) return placed_in(json, key);
+  if (std::ranges::all_of(json, &Json::is_string)) return json.get<std::vector<std::string>>();
+  if (std::ranges::all_of(json, &Json::is_number)) return json.get<std::vector<double>>();
+  return std::nullopt;
+}
+
+Json json_of(double value, Form form) {
+  const bool is_null = !std::isfinite(value) || (form == Form::zero_is_null && value == 0.0);
+  return is_null ? Json(nullptr) : Json(value);
+}
+
+void assign(double& value, const Json& json, const std::string& name, Form form) {
+  const double if_null = form == Form::zero_is_null ? 0.0 : std::numeric_limits<double>::infinity();
+  value = json.is_null() ? if_null : json.get<double>();
+  if (const char* words = allowed_words(value, form)) {
+    fail<ResultsError>("{} is {:.17g}; allowed: {}", name, value, words);
+  }
+}
+
+Json json_of(const std::string& text, Form form) {
+  return text.empty() && form == Form::empty_is_null ? Json(nullptr) : Json(text);
+}
+
+void assign(std::string& text, const Json& json, const std::string&, Form form) {
+  text = json.is_null() && form == Form::empty_is_null ? "" : json.get<std::string>();
+}
+
+Json& place_in(Json& object, const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == name.npos ? object[name] : object[name.substr(0, dot)][name.substr(dot + 1)];
+}
+
+const Json& found_in(const Json& object, const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == name.npos ? object.at(name)
+                          : object.at(name.substr(0, dot)).at(name.substr(dot + 1));
+}
+
+}  // namespace subimpact

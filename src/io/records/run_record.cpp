@@ -1,0 +1,429 @@
+#include "io/records/run_record.h"
+
+#include "case/refuse.h"
+
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+
+template <auto... kinds>
+static auto names_of_kinds() {
+  using Row = Named<std::common_type_t<decltype(kinds)...>>;
+  static const Row names[] = {{kinds, to_string(kinds).data(), ""}...};
+  return std::span<const Row>(names);
+}
+
+std::span<const Named<OutcomeKind>> names_of(OutcomeKind) {
+  using enum OutcomeKind;
+  return names_of_kinds<completed, stopped, inaccurate, unstable, chattering, solver_failed,
+                        left_validity>();
+}
+
+std::span<const Named<NearMissKind>> names_of(NearMissKind) {
+  return names_of_kinds<NearMissKind::opening, NearMissKind::closing>();
+}
+
+std::span<const Named<EventKind>> names_of(EventKind) {
+  using enum EventKind;
+  return names_of_kinds<contact_begins, contact_yields, contact_unloads, contact_ends,
+                        section_reverses>();
+}
+
+static Json json_of(const Interval& times, Form) { return {times.from, times.to}; }
+static void assign(Interval& times, const Json& json, const std::string& name, Form form) {
+  assign(times.from, json.at(0), name, form);
+  assign(times.to, json.at(1), name, form);
+}
+
+namespace {
+
+// The beam at rest after the run, where shapes were computed and no check failed.
+struct BeamAtRest {
+  double largest_set = 0.0, position = 0.0;
+  std::vector<PlasticZone> plastic_zones;
+};
+
+// clang-format off
+const Record<Total> total_record = {
+    {"value", "", &Total::value},
+    {"error", "", &Total::error}};
+
+const Record<ZoneSummary> zone_record = {
+    {"zone", "number of the zone, from 1", &ZoneSummary::zone},
+    {"sub_impacts", "their number", &ZoneSummary::n_sub_impacts},
+    {"subzones", "their number", &ZoneSummary::n_subzones},
+    {"start_s", "start of its first sub-impact", &ZoneSummary::start},
+    {"end_s", "end of its last one; null: still in contact", &ZoneSummary::end},
+    {"impulse_Ns", "sum over its sub-impacts", &ZoneSummary::impulse},
+    {"peak_force_N", "largest force", &ZoneSummary::peak_force}};
+
+const Record<NearMiss> near_miss_record = {
+    {"kind", "opening: a contact that nearly opened; closing: the reverse", &NearMiss::kind},
+    {"time_s", "instant of the smallest margin", &NearMiss::time, Form::from_zero},
+    {"margin_m", "distance between the indentation and the residual one", &NearMiss::margin, Form::above_zero}};
+
+const Record<ToleranceOutcome> tolerance_record = {
+    {"event_times_s", "error of event times that was asked for", &ToleranceOutcome::asked, Form::finite},
+    {"reached_error_s", "largest error of a certain event time; null: not known", &ToleranceOutcome::reached},
+    {"horizon_s", "up to which event times are certain and within that error", &ToleranceOutcome::horizon, Form::finite},
+    {"reason", "why the horizon comes before the end", &ToleranceOutcome::reason, Form::empty_is_null},
+    {"key_to_free", "key of the case that prevents it and could be freed", &ToleranceOutcome::key, Form::empty_is_null}};
+
+const Record<ErrorEstimate::Part> error_part_record = {
+    {"name", "time, mesh or layers", &ErrorEstimate::Part::name},
+    {"refined_run", "the run compared with", &ErrorEstimate::Part::refined_run},
+    {"max_error_s", "largest error of a certain time", &ErrorEstimate::Part::largest_error},
+    {"first_unresolved_index", "number, from 1, of the first uncertain sub-impact", &ErrorEstimate::Part::first_unresolved, Form::from_one},
+    {"reason", "why it is uncertain", &ErrorEstimate::Part::reason, Form::empty_is_null}};
+
+const Record<ErrorEstimate::UncertainFlight> flight_record = {
+    {"after_index", "number, from 1, of the sub-impact before it", &ErrorEstimate::UncertainFlight::after, Form::from_one},
+    {"reason", "why it may hold another sub-impact", &ErrorEstimate::UncertainFlight::reason}};
+
+const Record<ErrorEstimate::FinerMeshes> finer_meshes_record = {
+    {"mesh", "that shows it", &ErrorEstimate::FinerMeshes::mesh},
+    {"sub_impacts", "on that mesh", &ErrorEstimate::FinerMeshes::n_there},
+    {"same_sub_impacts", "sub-impacts that it confirms", &ErrorEstimate::FinerMeshes::n_same},
+    {"change_of_first_end_s", "what finer meshes change the end of the first sub-impact by", &ErrorEstimate::FinerMeshes::change_of_first_end},
+    {"doubt", "why the mesh is too coarse", &ErrorEstimate::FinerMeshes::doubt, Form::empty_is_null}};
+
+const Record<ErrorEstimate::Joined> joined_record = {
+    {"opening_m", "contacts parted by less count as one", &ErrorEstimate::Joined::opening},
+    {"sub_impacts", "that are left", &ErrorEstimate::Joined::n},
+    {"certain", "those of them that would be certain", &ErrorEstimate::Joined::n_certain}};
+
+const Record<ErrorEstimate> error_record = {
+    {"refined_run", "the runs compared with", &ErrorEstimate::refined_run},
+    {"max_time_error_s", "largest error of a certain time", &ErrorEstimate::largest_error},
+    {"first_unresolved_index", "number, from 1, of the first sub-impact that is not certain", &ErrorEstimate::first_unresolved, Form::from_one},
+    {"reason", "why it is uncertain", &ErrorEstimate::reason, Form::empty_is_null},
+    {"parts", "sources of error, one by one", &ErrorEstimate::parts, error_part_record},
+    {"uncertain_flights", "", &ErrorEstimate::uncertain_flights, flight_record},
+    {"finer_meshes", "of a mesh that the case fixes: what finer ones would change", &ErrorEstimate::finer_meshes, finer_meshes_record},
+    {"joined", "where many sub-impacts are not certain: with output.opening", &ErrorEstimate::joined, joined_record}};
+
+const Record<ZoneTotals> zone_totals_record = {
+    {"start_s", "", &ZoneTotals::start, total_record},
+    {"end_s", "", &ZoneTotals::end, total_record},
+    {"impulse_Ns", "", &ZoneTotals::impulse, total_record},
+    {"sub_impacts", "", &ZoneTotals::sub_impacts, total_record}};
+
+const Record<Predictability::Zone> zone_scatter_record = {
+    {"start_scatter_s", "standard deviation of the zone's start", &Predictability::Zone::start_scatter},
+    {"end_scatter_s", "that of its end", &Predictability::Zone::end_scatter},
+    {"impulse_scatter_Ns", "that of its impulse", &Predictability::Zone::impulse_scatter}};
+
+const Record<Predictability> predictability_record = {
+    {"horizon_s", "up to which the strike can be predicted", &Predictability::horizon, Form::finite},
+    {"first_unpredictable_index", "number, from 1, of the first sub-impact that cannot be", &Predictability::first_unpredictable, Form::from_one},
+    {"reason", "why it cannot", &Predictability::reason, Form::empty_is_null},
+    {"max_time_scatter_s", "largest standard deviation up to the horizon", &Predictability::largest_scatter, Form::finite},
+    {"zones", "", &Predictability::zones, zone_scatter_record},
+    {"striker_velocity_scatter_m_per_s", "standard deviation of the velocity at the end", &Predictability::striker_velocity_scatter}};
+
+const Record<NeglectedShear> shear_record = {
+    {"first_contact_end_without_s", "on coarse cells", &NeglectedShear::without},
+    {"first_contact_end_with_s", "the same with shear; null: more than three times as late", &NeglectedShear::with}};
+
+const Record<ClosestApproach> approach_record = {
+    {"time_s", "when", &ClosestApproach::time, Form::from_zero},
+    {"gap_m", "smallest gap", &ClosestApproach::gap, Form::above_zero},
+    {"error_m", "error of the gap", &ClosestApproach::error}};
+
+const Record<PlasticZone> plastic_zone_record = {
+    {"from_m", "where a plastic hinge begins", &PlasticZone::from},
+    {"to_m", "where it ends", &PlasticZone::to},
+    {"rotation_rad", "its rotation", &PlasticZone::rotation}};
+
+const Record<EnvelopeRow::Range> reaction_record = {
+    {"least_N", "smallest force of the support on the beam, positive along the strike", [](auto& r) -> auto& { return r.smallest.value; }, Form::finite},
+    {"least_time_s", "when", [](auto& r) -> auto& { return r.smallest.time; }, Form::finite},
+    {"largest_N", "largest one", [](auto& r) -> auto& { return r.largest.value; }, Form::finite},
+    {"largest_time_s", "when", [](auto& r) -> auto& { return r.largest.time; }, Form::finite}};
+
+const Record<BeamAtRest> rest_record = {
+    {"largest_permanent_set_m", "largest displacement of the beam at rest, against its supports; of a free one against the chord", &BeamAtRest::largest_set},
+    {"position_m", "where that is", &BeamAtRest::position},
+    {"plastic_zones", "", &BeamAtRest::plastic_zones, plastic_zone_record}};
+// clang-format on
+
+// The member of a result, or of what it holds, that a path of pointers leads to.
+template <class... Members>
+auto result(Members... path) {
+  return [=](auto& run) -> auto& { return (*run.result.*....*path); };
+}
+
+template <class Member>
+auto used(Member member) {
+  return result(&Result::used, member);
+}
+
+Json json_of_setting(const KeyValue& value) {
+  if (const auto* real = std::get_if<double>(&value); real != nullptr && !std::isfinite(*real)) {
+    return to_text(value);
+  }
+  return json_of(value);
+}
+
+KeyValue setting_of(const CaseKey& key, const Json& json) {
+  if (json == "inf") return std::numeric_limits<double>::infinity();
+  if (const auto value = key_value_of(key, json)) return *value;
+  fail<ResultsError>("{} is {}, which no key can hold", key.name, json.dump());
+}
+
+Json case_json(const DescribedRun& run) {
+  Json json;
+  for (const CaseKey& key : case_keys()) {
+    const std::optional<KeyValue> value = key.get(*run.input);
+    place_in(json, key.name) = value ? json_of_setting(*value) : Json(nullptr);
+  }
+  return json;
+}
+
+void read_case(const Json& json, DescribedRun& run) {
+  for (const CaseKey& key : case_keys()) {
+    const Json& value = found_in(json, key.name);
+    if (!value.is_null()) assign(*run.input, key, setting_of(key, value));
+  }
+}
+
+Json case_units(const DescribedRun&) {
+  Json json = Json::object();
+  for (const CaseKey& key : case_keys()) {
+    if (!key.unit.empty()) json[key.name] = key.unit;
+  }
+  return json;
+}
+
+Json libraries_json(const DescribedRun& run) {
+  Json json;
+  for (const auto& [name, version] : run.libraries) json[name] = version;
+  return json;
+}
+
+void read_libraries(const Json& json, DescribedRun& run) {
+  for (const auto& [name, version] : json.items()) {
+    run.libraries.emplace_back(name, version.get<std::string>());
+  }
+}
+
+// "contact_stiffness_N_per_m1.5": the exponent follows the unit, if it is not 1.
+Entry<DescribedRun> contact_stiffness_entry() {
+  static constexpr const char* start = "contact_stiffness_N_per_m";
+  Entry<DescribedRun> entry(
+      "used.contact_stiffness_N_per_m^n",
+      "stiffness of the contact; n: the exponent of the indentation, left out if 1");
+  entry.write = [](Json& object, const DescribedRun& run) {
+    const ResolvedSettings& used = run.result->used;
+    const std::string power =
+        used.contact_exponent == 1.0 ? "" : fmt::format("{:.6g}", used.contact_exponent);
+    object["used"][start + power] = json_of(used.contact_stiffness, Form::plain);
+  };
+  entry.read = [](const Json& object, DescribedRun& run) {
+    ResolvedSettings& used = run.result->used;
+    for (const auto& [name, value] : object.at("used").items()) {
+      if (!name.starts_with(start)) continue;
+      const std::string exponent = name.substr(std::string_view(start).size());
+      used.contact_exponent = exponent.empty() ? 1.0 : std::stod(exponent);
+      return assign(used.contact_stiffness, value, name, Form::plain);
+    }
+    object.at("used").at(start);  // throws, naming the missing field
+  };
+  return entry;
+}
+
+std::vector<ZoneSummary> zones_of(const DescribedRun& run) {
+  return summarise_zones(run.result->sub_impacts);
+}
+
+int count_subzones(const DescribedRun& run) {
+  int n_subzones = 0;
+  for (const ZoneSummary& zone : zones_of(run)) n_subzones += zone.n_subzones;
+  return n_subzones;
+}
+
+Json count_transitions(const DescribedRun& run) {
+  Json json;
+  for (const auto& [kind, name, note] : names_of(EventKind{})) {
+    json[name] = std::ranges::count(run.result->transitions, kind, &Transition::kind);
+  }
+  return json;
+}
+
+std::optional<bool> tolerance_met(const DescribedRun& run) {
+  const std::optional<ToleranceOutcome>& tolerance = run.result->tolerance;
+  return tolerance ? std::optional(tolerance->met) : std::nullopt;
+}
+
+void read_tolerance_met(const Json& met, DescribedRun& run) {
+  if (!met.is_null()) run.result->tolerance.emplace().met = met.get<bool>();
+}
+
+// Names lead to objects of a value and an error; without error bars there are none.
+Json totals_json(const DescribedRun& run) {
+  if (!run.result->error_estimate) return nullptr;
+  Json json;
+  for (const auto& [name, total] : run.result->error_estimate->totals) {
+    json[name] = json_of(total_record, total);
+  }
+  json["by_zone"] = json_of(zone_totals_record, run.result->error_estimate->zones);
+  return json;
+}
+
+void read_totals(const Json& json, DescribedRun& run) {
+  if (json.is_null() || !run.result->error_estimate) return;
+  ErrorEstimate& estimate = *run.result->error_estimate;
+  for (const auto& [name, total] : json.items()) {
+    if (name == "by_zone") continue;
+    assign(total_record, total, estimate.totals.emplace_back(name, Total()).total);
+  }
+  assign(zone_totals_record, json.at("by_zone"), estimate.zones);
+}
+
+std::optional<BeamAtRest> beam_at_rest(const DescribedRun& run) {
+  const Result& result = *run.result;
+  if (result.envelope.empty() || result.outcome.first_failure) return std::nullopt;
+  const EnvelopeRow& largest = *std::ranges::max_element(
+      result.envelope, {}, [](const EnvelopeRow& row) { return std::abs(row.set_from_supports); });
+  return BeamAtRest{largest.set_from_supports, largest.position, result.plastic_zones};
+}
+
+std::string contact_over(const DescribedRun& run) {
+  return run.result->contact_over ? "yes" : "may not be";
+}
+
+void read_contact_over(const Json& json, DescribedRun& run) {
+  run.result->contact_over = json == "yes";
+}
+
+void read_rest(const Json& json, DescribedRun& run) {
+  BeamAtRest rest;
+  if (!json.is_null()) assign(rest_record, json, rest);
+  run.result->plastic_zones = rest.plastic_zones;
+}
+
+// clang-format off
+Record<DescribedRun> make_run_record() {
+  using Used = ResolvedSettings;
+  const auto outcome = [](auto member) { return result(&Result::outcome, member); };
+  const auto energy = [](auto member) { return result(&Result::final_energies, member); };
+  using Velocities = Result::Velocities;
+  const auto work = [](auto member) { return result(&Result::work, member); };
+  return {
+      {"layout", "version of the layout of this file", [](const DescribedRun&) { return summary_layout; }},
+      {"program.name", "", [](const DescribedRun&) { return std::string("subimpact"); }},
+      {"program.version", "version of the program", &DescribedRun::program_version},
+      {"libraries", "their versions", &libraries_json, &read_libraries},
+      {"case", "keys of the case as asked for", &case_json, &read_case},
+      {"case_units", "units of the keys", &case_units},
+
+      {"used.method", "settings used, where the case left a choice open or it was derived", [](const DescribedRun& run) { return run.input->solver.method; }},
+      {"used.table", "coefficients, of Runge-Kutta methods", used(&Used::table)},
+      {"used.half_model", "whether symmetry was used", used(&Used::half_model)},
+      {"used.mesh", "the mesh in words", used(&Used::mesh)},
+      {"used.contact_law", "its name", used(&Used::contact_law)},
+      {"used.section", "name of the bending law; elastic where the beam never yields", used(&Used::section)},
+      {"used.n_unknowns", "unknowns of the beam", used(&Used::n_unknowns)},
+      {"used.n_sections", "sections modelled", used(&Used::n_sections)},
+      {"used.highest_frequency_rad_per_s", "upper bound, of the beam", used(&Used::highest_frequency)},
+      {"used.largest_contact_slope_N_per_m", "that the energy of the strike allows", used(&Used::largest_contact_slope)},
+      {"used.joined_frequency_rad_per_s", "of beam and striker joined by a spring of that slope", used(&Used::joined_frequency)},
+      {"used.contact_time_s", "scale of the shortest contacts", used(&Used::contact_time)},
+      {"used.critical_step_s", "of central differences", used(&Used::critical_step)},
+      {"used.step_s", "of methods with fixed steps", used(&Used::step)},
+      {"used.position_tolerance_m", "of adaptive methods", used(&Used::position_tolerance), Form::zero_is_null},
+      {"used.velocity_tolerance_m_per_s", "of adaptive methods", used(&Used::velocity_tolerance), Form::zero_is_null},
+      {"used.events", "how events are found", used(&Used::events)},
+      {"used.reversals", "how reversals of sections are found", used(&Used::reversals)},
+      {"used.max_order", "of multistep methods", used(&Used::max_order)},
+      contact_stiffness_entry(),
+      {"used.yield_indentation_m", "at which a contact without history first yields", used(&Used::yield_indentation)},
+      {"used.yield_curvature_per_m", "at which a section first yields", used(&Used::yield_curvature)},
+      {"used.first_period_s", "first period of the beam in bending", used(&Used::first_period), Form::finite},
+      {"used.initial_energy_J", "energy of the striker before the strike", used(&Used::initial_energy), Form::finite},
+      {"used.energy_tolerance_relative", "error of the energy that is allowed", used(&Used::energy_tolerance)},
+      {"used.shape_interval_s", "time between shapes; 0: none", used(&Used::shape_interval)},
+      {"used.n_shape_points", "points of a shape", used(&Used::n_shape_points)},
+
+      {"outcome.kind", "completed, stopped, inaccurate, unstable, chattering, solver_failed or left_validity", outcome(&Outcome::kind)},
+      {"outcome.time_s", "time reached", outcome(&Outcome::time), Form::from_zero},
+      {"outcome.message", "cause and what to do, of a run that did not complete", outcome(&Outcome::message)},
+      {"outcome.first_failure_s", "last time at which every check passed, first at which one failed", outcome(&Outcome::first_failure), Form::finite},
+      {"wish_met", "whether accuracy.event_times was met; null: none was asked for", &tolerance_met, &read_tolerance_met},
+      {"wish", "outcome of accuracy.event_times", result(&Result::tolerance), tolerance_record},
+      {"choice", "why mesh and method are what they are", result(&Result::choice)},
+      {"neglected_shear", "end of the first contact without and with shear", result(&Result::neglected_shear), shear_record},
+      {"warnings", "warnings about results that passed all checks", result(&Result::warnings)},
+
+      {"counts.sub_impacts", "number of sub-impacts", [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},
+      {"counts.parted_by_1_um", "sub-impacts that remain where those parted by less count as one", [](const DescribedRun& run) { return n_parted_by(1e-6, run.result->sub_impacts); }},
+      {"counts.parted_by_10_um", "the same for 10 um", [](const DescribedRun& run) { return n_parted_by(1e-5, run.result->sub_impacts); }},
+      {"counts.zones", "number of zones", [](const DescribedRun& run) { return zones_of(run).size(); }},
+      {"counts.subzones", "number of sub-zones", &count_subzones},
+      {"counts.transitions", "number of events of each kind", &count_transitions},
+      {"counts.yielded_sections", "of the sections modelled", result(&Result::n_yielded_sections)},
+      {"counts.history_rows", "rows of history.csv", result(&Result::n_history_rows)},
+      {"counts.shape_rows", "rows of shapes.csv", result(&Result::n_shape_rows)},
+      {"zones", "", &zones_of, zone_record},
+      {"near_misses", "", result(&Result::near_misses), near_miss_record},
+      {"first_yield.section_s", "when a section first yields; null: never", result(&Result::first_section_yield)},
+      {"first_yield.contact_s", "when the contact first yields; null: never", result(&Result::first_contact_yield)},
+      {"no_more_contact_s", "from when it is proven that no contact follows", result(&Result::no_more_contact)},
+      {"contact_over", "yes: proven that no contact follows, for this run and those beside it", &contact_over, &read_contact_over},
+      {"closest_approach", "after the last sub-impact; null: the gap does nothing but grow", result(&Result::closest_approach), approach_record},
+      {"maxima.force_N", "largest contact force", result(&Result::max_force), Form::finite},
+      {"maxima.indentation_m", "largest indentation", result(&Result::max_indentation), Form::finite},
+      {"final.striker_velocity_m_per_s", "velocity of the striker at the end", result(&Result::striker_velocity), Form::finite},
+      {"final.beam_mean_velocity_m_per_s", "momentum of the beam at the end over its mass", result(&Result::beam_mean_velocity), Form::finite},
+      {"first_touch.time_s", "when striker and beam first met; these three are 0 if they never did", result(&Result::first_touch, &Velocities::time), Form::finite},
+      {"first_touch.striker_velocity_m_per_s", "velocity of the striker then", result(&Result::first_touch, &Velocities::striker), Form::finite},
+      {"first_touch.beam_mean_velocity_m_per_s", "momentum of the beam then over its mass", result(&Result::first_touch, &Velocities::beam), Form::finite},
+      {"parting.time_s", "the last separation; without one the end", result(&Result::parting, &Velocities::time), Form::finite},
+      {"parting.striker_velocity_m_per_s", "velocity of the striker then", result(&Result::parting, &Velocities::striker), Form::finite},
+      {"parting.beam_mean_velocity_m_per_s", "momentum of the beam then over its mass", result(&Result::parting, &Velocities::beam), Form::finite},
+      {"restitution", "of these velocities: of both bodies, of the striker on a held beam, of a beam on a stop; none before they part, and while they approach again", result(&Result::restitution), Form::finite},
+      {"rests_since_s", "start of a contact in which loads hold striker and beam together to the end and beyond", result(&Result::rests_since), Form::finite},
+      {"final_energies.striker_J", "at the end; these seven less work_J add up to used.initial_energy_J", energy(&Energies::striker)},
+      {"final_energies.beam_kinetic_J", "of the beam's motion", energy(&Energies::beam_kinetic)},
+      {"final_energies.bending_elastic_J", "stored in bending", energy(&Energies::bending_elastic)},
+      {"final_energies.bending_plastic_J", "dissipated by bending", energy(&Energies::bending_plastic)},
+      {"final_energies.contact_elastic_J", "stored in the contact", energy(&Energies::contact_elastic)},
+      {"final_energies.contact_plastic_J", "dissipated by the contact, with its damping", energy(&Energies::contact_plastic)},
+      {"final_energies.beam_damping_J", "dissipated by the damping of the beam", energy(&Energies::beam_damping)},
+      {"final_energies.work_J", "work of gravity and loads since the start", energy(&Energies::work)},
+      {"dissipated_by_damping.contact_J", "energy dissipated by the damping of the contact", result(&Result::contact_damping_loss)},
+      {"dissipated_by_damping.beam_J", "energy dissipated by the damping of the beam", result(&Result::beam_damping_loss)},
+      {"reactions.first", "of the support at x = 0; null: free end, or no rows", [](auto& run) -> auto& { return run.result->reactions[0]; }, reaction_record},
+      {"reactions.last", "of the support at x = length", [](auto& run) -> auto& { return run.result->reactions[1]; }, reaction_record},
+      {"rest", "the beam after the run", &beam_at_rest, rest_record, &read_rest},
+      {"conservation.max_energy_error_relative", "largest error of the energy", result(&Result::max_energy_error)},
+      {"conservation.max_momentum_error_relative", "largest error of the momentum; null where supports take momentum up", result(&Result::max_momentum_error)},
+      {"conservation.max_impulse_error_relative", "largest difference between an impulse and the integral of its force, over m v0", result(&Result::max_impulse_error)},
+      {"error_bars", "errors of event times; null: not estimated", result(&Result::error_estimate), error_record},
+      {"totals", "numbers of the run as a whole, each with its value and its error, which covers 95 of 100; null: not known, as of the largest strain where a hinge forms, in which strains grow without limit on finer meshes. by_zone: for each zone start_s, end_s, impulse_Ns, sub_impacts", &totals_json, &read_totals},
+      {"predictability", "of a case with scatter", result(&Result::predictability), predictability_record},
+
+      {"work.steps", "steps of the method", work(&Work::steps)},
+      {"work.rejected_steps", "steps repeated with another length", work(&Work::rejected_steps)},
+      {"work.partial_steps", "steps made to compute states within a step", work(&Work::partial_steps)},
+      {"work.right_hand_sides", "evaluations of the equations", work(&Work::right_hand_sides)},
+      {"work.mass_solves", "solutions with the mass matrix", work(&Work::mass_solves)},
+      {"work.jacobians", "evaluations of the Jacobian", work(&Work::jacobians)},
+      {"work.factorisations", "of matrices", work(&Work::factorisations)},
+      {"work.roots", "events located", work(&Work::roots)},
+      {"work.nonlinear_iterations", "of implicit methods", work(&Work::nonlinear_iterations)},
+      {"work.nonlinear_failures", "of implicit methods", work(&Work::nonlinear_failures)},
+      {"work.setup_s", "time spent before the first step", work(&Work::setup_seconds)},
+      {"work.wall_s", "time spent in all", work(&Work::wall_seconds)},
+      {"work.all_s", "the same with the runs beside it and before it", work(&Work::all_seconds)}};
+}
+// clang-format on
+
+}  // namespace
+
+const Record<DescribedRun>& run_record() {
+  static const Record<DescribedRun> record = make_run_record();
+  return record;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,261 @@
+#include "io/records/run_tables.h"
+
+#include "io/records/run_record.h"
+#include "subimpact/io/results.h"
+
+namespace subimpact {
+namespace {
+
+std::size_t number_from_1(const SubImpact&, std::size_t index) { return index + 1; }
+
+std::optional<double> duration(const SubImpact& s) {
+  return s.end ? std::optional(*s.end - s.start) : std::nullopt;
+}
+
+// A number of nine digits: fields are looked at and integrated, and their files are large.
+Column<ShapeRow> short_column(const char* name, const char* meaning, double ShapeRow::*member) {
+  Column<ShapeRow> column(name, meaning, member);
+  column.digits = 9;
+  return column;
+}
+
+// The four columns of a range: its ends, each with the instant at which it was reached.
+void add_range(Columns<EnvelopeRow>& columns, const std::string& name, const std::string& unit,
+               const char* meaning, EnvelopeRow::Range EnvelopeRow::*range) {
+  using Extreme = EnvelopeRow::Extreme;
+  using Value = double Extreme::*;
+  const auto add = [&](const char* prefix, const char* words, Extreme EnvelopeRow::Range::*end) {
+    const auto column = [&](const std::string& column_name, const std::string& column_meaning,
+                            Value value) {
+      columns.push_back(
+          {column_name, column_meaning, [=](auto& row) -> decltype((row.*range.*end.*value)) {
+             return row.*range.*end.*value;
+           }});
+    };
+    column(prefix + name + unit, std::string(words) + meaning, &Extreme::value);
+    column(prefix + name + "_time_s", "instant at which that was reached", &Extreme::time);
+  };
+  add("max_", "largest ", &EnvelopeRow::Range::largest);
+  add("min_", "smallest ", &EnvelopeRow::Range::smallest);
+}
+
+Columns<EnvelopeRow> envelope_columns() {
+  Columns<EnvelopeRow> all = {{"position_m", "position along the beam", &EnvelopeRow::position}};
+  add_range(all, "displacement", "_m", "displacement", &EnvelopeRow::displacement);
+  add_range(all, "moment", "_Nm", "bending moment", &EnvelopeRow::moment);
+  add_range(all, "strain", "", "strain of the outer fibre behind, positive in tension",
+            &EnvelopeRow::strain);
+  add_range(all, "plastic_curvature", "_per_m", "plastic curvature",
+            &EnvelopeRow::plastic_curvature);
+  all.push_back({"permanent_set_m",
+                 "displacement, against the chord of both ends, of the beam at rest after the "
+                 "run: the double integral of the plastic curvature",
+                 &EnvelopeRow::permanent_set});
+  all.push_back({"set_against_supports_m",
+                 "the same against the supports: against the clamp of a cantilever, else equal",
+                 &EnvelopeRow::set_from_supports});
+  return all;
+}
+
+std::size_t one(const Case&, const Result&) { return 1; }
+std::size_t n_sections(const Case& input, const Result&) { return input.output.sections.size(); }
+std::size_t n_points(const Case& input, const Result&) { return input.output.points.size(); }
+std::size_t n_shape_points(const Case&, const Result& result) {
+  return result.n_shape_rows > 0 ? result.used.n_shape_points : 0;
+}
+std::size_t one_if_repeated(const Case& input, const Result&) { return input.strikes > 1 ? 1 : 0; }
+std::size_t one_with_shapes(const Case& input, const Result& result) {
+  return n_shape_points(input, result) > 0 ? 1 : 0;
+}
+std::size_t n_history_rows(const Result& result) { return result.n_history_rows; }
+std::size_t n_shapes(const Result& result) {
+  return result.n_shape_rows / result.used.n_shape_points;
+}
+
+}  // namespace
+
+// clang-format off
+template <>
+const RunTable<SubImpact>& run_table() {
+  static const RunTable<SubImpact> table = {
+      "events.csv", "one row per sub-impact",
+      {{"index", "number of the sub-impact, from 1", number_from_1},
+       {"zone", "number of its zone, from 1", &SubImpact::zone},
+       {"subzone", "number of its sub-zone within the zone, from 1", &SubImpact::subzone},
+       {"start_s", "instant at which contact begins", &SubImpact::start},
+       {"end_s", "instant at which the contact force returns to zero; empty: after the run's end", &SubImpact::end},
+       {"duration_s", "end_s - start_s", duration},
+       {"peak_force_N", "largest contact force", &SubImpact::peak_force},
+       {"impulse_Ns", "momentum that the striker loses", &SubImpact::impulse},
+       {"max_indentation_m", "largest indentation", &SubImpact::max_indentation},
+       {"residual_indentation_m", "indentation that remains", &SubImpact::residual_indentation},
+       {"striker_velocity_m_per_s", "velocity of the striker at the end", &SubImpact::striker_velocity},
+       {"certain", "1: exists, alone, in this place; 0: uncertain; empty: without error bars", &SubImpact::certain},
+       {"probability", "of that; 1 where certain", &SubImpact::probability},
+       {"start_error_s", "error of start_s, sum of its parts; this and what follows: empty without error bars", &SubImpact::start_error},
+       {"end_error_s", "error of end_s, sum of its parts", &SubImpact::end_error},
+       {"error_time_s", "part of the integration in time", &SubImpact::error_time},
+       {"error_mesh_s", "part of the mesh", &SubImpact::error_mesh},
+       {"error_layers_s", "part of layers in place of the exact section", &SubImpact::error_layers},
+       {"start_mesh_limit_s", "start extrapolated to the limit of fine meshes", &SubImpact::start_mesh_limit},
+       {"end_mesh_limit_s", "end extrapolated to that limit", &SubImpact::end_mesh_limit},
+       {"mesh_limit_error_s", "error of both limits", &SubImpact::mesh_limit_error},
+       {"start_scatter_s", "standard deviation of start_s by the case's [scatter]; this and the next: empty without", &SubImpact::start_scatter},
+       {"end_scatter_s", "standard deviation of end_s", &SubImpact::end_scatter},
+       {"peak_force_error_N", "error of peak_force_N; this and the next: empty where not known", &SubImpact::peak_force_error},
+       {"impulse_error_Ns", "error of impulse_Ns", &SubImpact::impulse_error},
+       {"max_indentation_error_m", "error of max_indentation_m", &SubImpact::max_indentation_error},
+       {"residual_indentation_error_m", "error of residual_indentation_m", &SubImpact::residual_indentation_error},
+       {"striker_velocity_error_m_per_s", "error of striker_velocity_m_per_s", &SubImpact::striker_velocity_error},
+       {"doubt", "why it is not certain", &SubImpact::doubt},
+       {"peak_time_s", "instant of the largest force", &SubImpact::peak_time},
+       {"opening_m", "largest gap between striker and beam after it, until the next one or the run's end; empty: still in contact then", &SubImpact::opening},
+       {"opening_error_m", "error of opening_m; empty where not known", &SubImpact::opening_error}},
+      &Result::sub_impacts, one};
+  return table;
+}
+
+template <>
+const RunTable<Transition>& run_table() {
+  static const RunTable<Transition> table = {
+      "transitions.csv", "one row per located event",
+      {{"time_s", "instant of the event", &Transition::time},
+       {"kind", "contact_begins, contact_yields, contact_unloads, contact_ends, or section_reverses (not by central-difference)", &Transition::kind},
+       {"section", "index of the section, from 0; empty for events of the contact", &Transition::section},
+       {"value", "indentation (m), or curvature of the section (1/m)", &Transition::value}},
+      &Result::transitions, one};
+  return table;
+}
+
+template <>
+const RunTable<HistoryRow>& run_table() {
+  static const RunTable<HistoryRow> table = {
+      "history.csv", "rows at output.interval, and where that is left open at changes of the contact force by 1 % of the largest so far; two rows per event of the contact",
+      {{"time_s", "time", &HistoryRow::time},
+       {"force_N", "contact force", &HistoryRow::force},
+       {"indentation_m", "indentation", &HistoryRow::indentation},
+       {"w_c_m", "displacement of the struck point", &HistoryRow::struck_displacement},
+       {"w_m_m", "displacement of the striker", &HistoryRow::striker_displacement},
+       {"f_c_m", "deflection w_c - w(0) of the struck point", &HistoryRow::struck_deflection},
+       {"u_mf_m", "w_m - w(0)", &HistoryRow::striker_relative},
+       {"v_c_m_per_s", "velocity of the struck point", &HistoryRow::struck_velocity},
+       {"v_m_m_per_s", "velocity of the striker", &HistoryRow::striker_velocity},
+       {"stress_back_Pa", "stress of the outer fibre behind the struck point, positive in tension", &HistoryRow::back_stress},
+       {"U_m_J", "kinetic energy of the striker", &HistoryRow::striker_energy},
+       {"U_k_J", "kinetic energy of the beam", &HistoryRow::beam_kinetic_energy},
+       {"U_e_J", "elastic energy of bending, shear, springs and bedding", &HistoryRow::bending_elastic},
+       {"U_p_J", "energy dissipated by bending", &HistoryRow::bending_plastic},
+       {"U_c_J", "elastic energy of the contact", &HistoryRow::contact_elastic},
+       {"D_c_J", "energy dissipated by the contact", &HistoryRow::contact_plastic},
+       {"energy_error", "relative error of the sum of these six and D_b_J less W_J", &HistoryRow::energy_error},
+       {"momentum_error", "relative error of the momentum; empty where supports take momentum up", &HistoryRow::momentum_error},
+       {"D_b_J", "energy dissipated by the damping of the beam", &HistoryRow::beam_damping},
+       {"R_0_N", "force of the support at x = 0 on the beam, positive in the direction of the strike; empty: free end", &HistoryRow::first_reaction},
+       {"R_l_N", "the same at x = length", &HistoryRow::last_reaction},
+       {"W_J", "work of gravity and loads on striker and beam since the start", &HistoryRow::work}},
+      &Result::history, one, n_history_rows, {&HistoryRow::force, &HistoryRow::indentation, &HistoryRow::struck_deflection, &HistoryRow::striker_relative, &HistoryRow::back_stress}};
+  return table;
+}
+
+template <>
+const RunTable<SectionRow>& run_table() {
+  static const RunTable<SectionRow> table = {
+      "sections.csv", "one row per section of output.sections and row of history.csv",
+      {{"time_s", "time", &SectionRow::time},
+       {"position_m", "position of the section along the beam", &SectionRow::position},
+       {"curvature_per_m", "curvature", &SectionRow::curvature},
+       {"moment_Nm", "bending moment M, E I kappa while elastic", &SectionRow::moment},
+       {"plastic_curvature_per_m", "curvature - M/(E I)", &SectionRow::plastic_curvature}},
+      &Result::section_history, n_sections, n_history_rows, {&SectionRow::curvature, &SectionRow::moment}};
+  return table;
+}
+
+template <>
+const RunTable<PointRow>& run_table() {
+  static const RunTable<PointRow> table = {
+      "points.csv", "one row per point of output.points and row of history.csv",
+      {{"time_s", "time", &PointRow::time},
+       {"position_m", "position of the point along the beam", &PointRow::position},
+       {"displacement_m", "displacement of the axis there", &PointRow::displacement},
+       {"velocity_m_per_s", "velocity", &PointRow::velocity}},
+      &Result::point_history, n_points, n_history_rows, {&PointRow::displacement}};
+  return table;
+}
+
+template <>
+const RunTable<ShapeRow>& run_table() {
+  static const RunTable<ShapeRow> table = {
+      "shapes.csv", "one row per point of the whole beam, at instants output.shapes apart and at every event of the contact; numbers other than the time have 9 digits",
+      {{"time_s", "time", &ShapeRow::time},
+       short_column("position_m", "position along the beam, from x = 0 to its length", &ShapeRow::position),
+       short_column("displacement_m", "displacement w of the axis, positive in the direction of the strike", &ShapeRow::displacement),
+       short_column("velocity_m_per_s", "velocity dw/dt", &ShapeRow::velocity),
+       short_column("rotation_rad", "rotation of the section, dw/dx where sections do not shear; at a hinge the mean of both sides", &ShapeRow::rotation),
+       short_column("curvature_per_m", "curvature", &ShapeRow::curvature),
+       short_column("moment_Nm", "bending moment M, E I kappa while elastic", &ShapeRow::moment),
+       short_column("plastic_curvature_per_m", "curvature - M/(E I)", &ShapeRow::plastic_curvature)},
+      &Result::shapes, n_shape_points, n_shapes};
+  return table;
+}
+
+template <>
+const RunTable<EnvelopeRow>& run_table() {
+  static const RunTable<EnvelopeRow> table = {
+      "envelope.csv", "one row per point of shapes.csv: extremes over its instants and over rows of history.csv, at least 1/4000 of time.end apart",
+      envelope_columns(), &Result::envelope, one_with_shapes};
+  return table;
+}
+// clang-format on
+
+template <>
+const RunTable<StrikeRow>& run_table() {
+  static const RunTable<StrikeRow> table = {
+      "strikes.csv",
+      "one row per strike of a run with repeat.strikes, at its end",
+      {{"strike", "its number, from 1", &StrikeRow::strike},
+       {"sub_impacts", "their number", &StrikeRow::sub_impacts},
+       {"restitution",
+        "velocity at which the bodies part over that at which they met; empty until they part",
+        &StrikeRow::restitution},
+       {"striker_velocity_m_per_s", "velocity of the striker", &StrikeRow::striker_velocity},
+       {"peak_force_N", "largest force", &StrikeRow::peak_force},
+       {"impulse_Ns", "of all sub-impacts", &StrikeRow::impulse},
+       {"dent_m", "residual indentation, of all strikes so far", &StrikeRow::dent},
+       {"permanent_set_m", "largest displacement at rest against the supports, so far",
+        &StrikeRow::permanent_set},
+       {"hinge_rotation_rad", "of the largest plastic hinge, so far", &StrikeRow::hinge_rotation},
+       {"striker_J", "energy left in the striker", &StrikeRow::striker_energy},
+       {"vibration_J",
+        "motion and elastic energy of the beam, with what stays locked in sections that have "
+        "yielded",
+        &StrikeRow::vibration},
+       {"bending_J", "dissipated by bending and by the damping of the beam, in this strike",
+        &StrikeRow::bending_dissipated},
+       {"contact_J", "dissipated by the contact, in this strike", &StrikeRow::contact_dissipated},
+       {"restitution_error", "error of the restitution, from runs beside with as many strikes",
+        &StrikeRow::restitution_error},
+       {"peak_force_error_N", "error of the force, from these runs", &StrikeRow::peak_force_error},
+       {"permanent_set_error_m", "error of the permanent set, from these runs",
+        &StrikeRow::permanent_set_error}},
+      &Result::strikes,
+      one_if_repeated};
+  return table;
+}
+
+std::string column_listing() {
+  std::string text;
+  for_each_run_table([&](const auto& table) {
+    text += fmt::format("{}: {}\n", table.file, table.meaning);
+    for (const auto& column : table.columns) {
+      text += fmt::format("  {:<25} {}\n", column.name, column.meaning);
+    }
+    text += '\n';
+  });
+  text += "summary.json: one object; a.b: the member b of the object a, a[].b: of each in a list\n";
+  for (const auto& [name, meaning] : listing_of(run_record())) {
+    text += fmt::format("  {:<44} {}\n", name, meaning);
+  }
+  return text;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "io/records/csv_columns.h"
+#include "subimpact/case/case.h"
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// A table that a run writes: its file, and all that is needed to read, write and describe it.
+template <class Row>
+struct RunTable {
+  const char* file;
+  const char* meaning;  ///< of a row
+  Columns<Row> columns;
+  std::vector<Row> Result::*rows;
+  /// How many rows there are at an instant; 0: the run writes no such table.
+  std::size_t (*group)(const Case& input, const Result& result);
+  /// For a table that may be too long to hold: how many instants it has; what keeps its extremes.
+  std::size_t (*n_instants)(const Result& result) = nullptr;
+  std::vector<double Row::*> drawn = {};
+};
+
+/// For SubImpact, Transition, HistoryRow, SectionRow, PointRow, ShapeRow, EnvelopeRow, StrikeRow.
+template <class Row>
+const RunTable<Row>& run_table();
+
+template <class Use>
+void for_each_run_table(Use use) {
+  use(run_table<SubImpact>());
+  use(run_table<Transition>());
+  use(run_table<HistoryRow>());
+  use(run_table<SectionRow>());
+  use(run_table<PointRow>());
+  use(run_table<ShapeRow>());
+  use(run_table<EnvelopeRow>());
+  use(run_table<StrikeRow>());
+}
+
+template <class Row>
+std::string csv_of(const Result& result) {
+  const RunTable<Row>& table = run_table<Row>();
+  return csv_text(table.columns, result.*table.rows);
+}
+
+}  // namespace subimpact

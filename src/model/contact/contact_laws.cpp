@@ -1,0 +1,247 @@
+#include "model/contact/contact_laws.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "model/contact/ball_contact.h"
+#include "model/contact/line_contact.h"
+#include "model/contact/power_contact.h"
+#include "model/contact/sphere_contact.h"
+
+namespace subimpact {
+namespace {
+
+using Law = std::shared_ptr<const ContactLaw>;
+
+constexpr double never = std::numeric_limits<double>::infinity();  // as a yield indentation
+constexpr double rigid = std::numeric_limits<double>::infinity();  // as a modulus
+
+double need(const std::optional<double>& constant) {
+  if (!constant) throw std::invalid_argument("contact law: a constant that it needs is missing");
+  return *constant;
+}
+
+Law make_foundation(const Scene& scene) {
+  const Beam& beam = scene.beam;
+  const double depth = beam.height(), radius = need(scene.striker.nose_radius);
+  const double yields_at = beam.yield_stress * depth / beam.youngs_modulus;
+  const GapRadii radii = gap_radii(scene);
+  if (std::isinf(radii.across)) {
+    return std::make_shared<PowerContact>(4.0 * std::sqrt(2.0 * radius) * beam.youngs_modulus *
+                                              beam.outer_solid().width / (3.0 * depth),
+                                          1.5, yields_at, "foundation");
+  }
+  return std::make_shared<PowerContact>(
+      M_PI * std::sqrt(radii.along * radii.across) * beam.youngs_modulus / depth, 2.0, yields_at,
+      "foundation");
+}
+
+double compliance_of(const Scene& scene) {
+  const Contact& contact = scene.contact;
+  return contact_compliance(contact.striker_modulus.value_or(rigid),
+                            contact.striker_poisson.value_or(0.0), scene.beam.youngs_modulus,
+                            need(scene.beam_poisson()));
+}
+
+double yield_pressure_of(const Scene& scene) {
+  const double share = scene.contact.kind == ContactKind::line ? yield_pressure_over_stress_of_line
+                                                               : yield_pressure_over_stress;
+  return scene.contact.yield_pressure.value_or(share * scene.beam.yield_stress);
+}
+
+// The pressure of a plastic contact; nothing where it does not yield.
+std::optional<MeanPressure> mean_pressure_of(const Scene& scene, MeanPressure::Nose nose) {
+  const double pressure = yield_pressure_of(scene);
+  if (scene.contact.kind == ContactKind::hertz || std::isinf(pressure)) return std::nullopt;
+  const double radius = need(scene.striker.nose_radius), modulus = 1.0 / compliance_of(scene);
+  return scene.contact.pressure_by_depth
+             ? pressure_by_depth(nose, scene.beam.yield_stress, modulus, radius)
+             : cut_off_pressure(nose, pressure, modulus, radius);
+}
+
+Law make_ball(const Scene& scene, const char* name) {
+  const BodiesOfBall bodies{need(scene.striker.nose_radius), 0.5 * scene.beam.height(),
+                            scene.beam.youngs_modulus, need(scene.beam_poisson()),
+                            1.0 / compliance_of(scene)};
+  return std::make_shared<MidPlaneContact>(name, ball_on_beam(bodies),
+                                           mean_pressure_of(scene, MeanPressure::Nose::ball));
+}
+
+Law make_hertz(const Scene& scene) {
+  const auto& given = scene.contact.stiffness;
+  if (!given && scene.contact.is_from_mid_plane()) return make_ball(scene, "hertz");
+  return std::make_shared<PowerContact>(
+      given ? *given : hertz_stiffness(gap_radii(scene), compliance_of(scene)), 1.5, never,
+      "hertz");
+}
+
+Law make_sphere(const Scene& scene) {
+  if (scene.contact.is_from_mid_plane()) return make_ball(scene, "sphere");
+  const double radius = need(scene.striker.nose_radius), compliance = compliance_of(scene);
+  const double pressure = yield_pressure_of(scene);
+  if (std::isfinite(pressure)) {
+    return std::make_shared<SphereContact>(radius, 1.0 / compliance, pressure);
+  }
+  return std::make_shared<PowerContact>(hertz_stiffness({radius, radius}, compliance), 1.5, never,
+                                        "sphere");
+}
+
+Law make_line(const Scene& scene) {
+  const Contact& contact = scene.contact;
+  const double poisson = need(scene.beam_poisson()),
+               of_nose = contact.striker_poisson.value_or(0.0);
+  const BodiesOfLine bodies{need(scene.striker.nose_radius),
+                            scene.beam.outer_solid().width,
+                            0.5 * scene.beam.height(),
+                            scene.beam.youngs_modulus / (1.0 - poisson * poisson),
+                            poisson,
+                            contact.striker_modulus.value_or(rigid) / (1.0 - of_nose * of_nose)};
+  return std::make_shared<MidPlaneContact>("line", cylinder_across(bodies),
+                                           mean_pressure_of(scene, MeanPressure::Nose::cylinder));
+}
+
+Law make_linear(const Scene& scene) {
+  return std::make_shared<PowerContact>(need(scene.contact.stiffness), 1.0, never, "linear");
+}
+
+constexpr const char* nose[] = {"striker.nose_radius"};
+constexpr const char* stiffness[] = {"contact.stiffness"};
+constexpr const char* both_bodies[] = {"striker.nose_radius", "contact.striker_modulus",
+                                       "contact.striker_poisson", "contact.beam_poisson"};
+constexpr const char* beam_alone[] = {"striker.nose_radius", "contact.beam_poisson"};
+
+constexpr const char* yield_pressure[] = {"contact.yield_pressure"};
+
+constexpr ContactConstants of_foundation[] = {
+    {nose, "give it in m",
+     "\"foundation\" derives its stiffness from beam and striker.nose_radius"}};
+constexpr ContactConstants of_hertz[] = {
+    {stiffness, "give it in N/m^1.5",
+     "contact.stiffness already sets the stiffness of the contact"},
+    {both_bodies,
+     "give it, or contact.stiffness in N/m^1.5 in place of a sphere's radius, moduli and Poisson's "
+     "ratios",
+     ""}};
+constexpr ContactConstants of_linear[] = {
+    {stiffness, "give it in N/m", "\"linear\" does not use it"}};
+
+constexpr const char* from_radius =
+    "\"sphere\" and \"line\" derive their stiffness from radius, moduli and Poisson's ratios";
+// The second way is that of a rigid nose.
+constexpr ContactConstants of_round_nose[] = {
+    {both_bodies, "give it", from_radius, yield_pressure},
+    {beam_alone, "give it",
+     "the contact's stiffness follows from the beam, and from the nose only where both "
+     "contact.striker_modulus and contact.striker_poisson are given (else it is rigid)",
+     yield_pressure}};
+
+constexpr const char* line_contact =
+    "a cylinder on a flat surface touches it along a line, whose approach is no power of the "
+    "force; allowed: striker.nose = \"sphere\", or contact.law = \"line\" or \"foundation\"";
+
+constexpr const char* ellipse =
+    "nose and surface touch in an ellipse, and the law is for a circle or a line; allowed: "
+    "contact.law = \"hertz\" with contact.indentation = \"half-space\", which has the ellipse and "
+    "does not yield, or a flat surface";
+
+// Why there is no mid-plane to measure from; empty where there is.
+std::string why_no_mid_plane(const Scene& scene, GapRadii radii) {
+  if (scene.beam.gap().area() > 0.0) {
+    return "the indentation is measured from the mid-plane, and this section is hollow; allowed: "
+           "contact.law = \"sphere\" or \"hertz\" with contact.indentation = \"half-space\"";
+  }
+  return std::isnan(radii.along) || radii.is_circle() ? "" : ellipse;
+}
+
+std::string why_no_columns(const Scene& scene, GapRadii /*radii*/) {
+  if (scene.beam.gap().area() <= 0.0) return {};
+  return "columns through the whole height carry the contact, and this section is hollow; allowed: "
+         "contact.law = \"sphere\" or \"hertz\", which have their own stiffness";
+}
+
+std::string why_no_power(const Scene& scene, GapRadii radii) {
+  if (scene.contact.stiffness) return {};
+  if (std::isinf(radii.across)) return line_contact;
+  return scene.contact.is_from_mid_plane() ? why_no_mid_plane(scene, radii) : "";
+}
+
+std::string why_no_circle(const Scene& scene, GapRadii radii) {
+  if (std::isinf(radii.across)) return line_contact;
+  if (scene.contact.is_from_mid_plane()) return why_no_mid_plane(scene, radii);
+  if (scene.contact.pressure_by_depth) {
+    return "contact.yield_pressure = \"by-depth\" is for indentations measured from the mid-plane; "
+           "allowed: contact.indentation = \"mid-plane\", or a number as "
+           "contact.yield_pressure";
+  }
+  if (std::isnan(radii.along) || radii.is_circle()) return {};
+  return "nose and surface touch in an ellipse, and the law is for a circle; allowed: \"hertz\", "
+         "which has the ellipse and does not yield, or a flat surface";
+}
+
+std::string why_no_line(const Scene& scene, GapRadii /*radii*/) {
+  if (scene.contact.indentation == IndentationFrom::half_space) {
+    return "contact.indentation is \"half-space\", on which a line contact has no finite "
+           "indentation; allowed: contact.indentation = \"mid-plane\"; leave it out";
+  }
+  if (scene.nose() == NoseShape::sphere) {
+    return "a sphere does not touch along a line; allowed: striker.nose = \"cylinder\", or "
+           "contact.law = \"sphere\" or \"hertz\"";
+  }
+  const std::string hollow = why_no_mid_plane(scene, {});
+  return hollow.empty() && scene.beam.is_round() ? ellipse : hollow;
+}
+
+constexpr BuiltInContactLaw laws[] = {
+    {ContactKind::foundation, "foundation",
+     "columns of the beam's height, elastic-perfectly plastic", true, of_foundation,
+     make_foundation, why_no_columns},
+    {ContactKind::hertz, "hertz",
+     "elastic, K lambda^1.5: contact.stiffness, or a sphere of striker.nose_radius with the moduli "
+     "and Poisson's ratios of both bodies",
+     false, of_hertz, make_hertz, why_no_power},
+    {ContactKind::linear, "linear", "elastic, K lambda: contact.stiffness", false, of_linear,
+     make_linear},
+    {ContactKind::sphere, "sphere",
+     "a sphere of striker.nose_radius with the moduli and Poisson's ratios of both bodies, which "
+     "yields at contact.yield_pressure (Thornton)",
+     true, of_round_nose, make_sphere, why_no_circle},
+    {ContactKind::line, "line",
+     "a cylinder of striker.nose_radius across the beam, with the moduli and Poisson's ratios of "
+     "both bodies, which yields at contact.yield_pressure",
+     true, of_round_nose, make_line, why_no_line},
+};
+
+}  // namespace
+
+std::optional<double> contact_yield_velocity(const Scene& scene, const ContactLaw& law) {
+  double energy = law.work_up_to(law.yield_threshold({}));
+  if (std::isinf(law.yield_threshold({}))) {
+    const auto& radius = scene.striker.nose_radius;
+    const double pressure = yield_pressure_of(scene);
+    if (scene.contact.kind != ContactKind::hertz || !radius || std::isinf(pressure)) return {};
+    const GapRadii radii = gap_radii(scene);
+    if (!radii.is_circle()) return {};
+    const double modulus = 0.75 * law.scales().stiffness / std::sqrt(*radius);
+    const SphereContact yielding(*radius, modulus, pressure);
+    energy = yielding.work_up_to(yielding.yield_threshold({}));
+  }
+  return std::sqrt(2.0 * energy / scene.striker.mass);
+}
+
+std::span<const BuiltInContactLaw> built_in_contact_laws() { return laws; }
+
+const BuiltInContactLaw& built_in_contact_law(ContactKind kind) {
+  for (const BuiltInContactLaw& law : laws) {
+    if (law.kind == kind) return law;
+  }
+  throw std::logic_error("a contact law without a row: add it in contact_laws.cpp");
+}
+
+std::shared_ptr<const ContactLaw> make_contact_law(const Scene& scene) {
+  return built_in_contact_law(scene.contact.kind).make(scene);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "model/contact/contact_geometry.h"
+#include "model/contact/mean_pressure.h"
+#include "subimpact/model/contact/contact_law.h"
+#include "subimpact/model/scene.h"
+
+namespace subimpact {
+
+struct ContactConstants {
+  std::span<const char* const> keys;  ///< of the case file, all needed
+  const char* remedy;                 ///< where one is missing
+  /// Why a constant of the contact that is not among the keys has no use.
+  const char* why_unused;
+  /// Keys that may be given as well.
+  std::span<const char* const> optional = {};
+};
+
+/// A contact law that a scene can name (docs/theory.md, "Contact"). A new one is a class of its
+/// own, an enumerator and a row of built_in_contact_laws().
+struct BuiltInContactLaw {
+  ContactKind kind;
+  const char* name;
+  const char* note;
+  bool yields;
+  /// The ways to give its constants; the last one is assumed where none is complete.
+  std::span<const ContactConstants> ways;
+  /// Throws std::invalid_argument where a constant is missing.
+  std::shared_ptr<const ContactLaw> (*make)(const Scene& scene);
+  /// Why the law does not describe the nose on the beam's section; empty where it does. The radii
+  /// of the gap are NaN without a nose radius.
+  std::string (*why_not)(const Scene& scene, GapRadii radii) = nullptr;
+};
+
+std::span<const BuiltInContactLaw> built_in_contact_laws();
+const BuiltInContactLaw& built_in_contact_law(ContactKind kind);
+
+/// The law that a scene names. Throws std::invalid_argument where a constant is missing.
+std::shared_ptr<const ContactLaw> make_contact_law(const Scene& scene);
+
+/// The velocity (m/s) from which a strike yields the contact of a beam that does not give way, so
+/// that any slower strike leaves it elastic: that of the law; of an elastic Hertz contact with a
+/// nose radius that of its material. Nothing where nothing yields or too little is given.
+std::optional<double> contact_yield_velocity(const Scene& scene, const ContactLaw& law);
+
+}  // namespace subimpact

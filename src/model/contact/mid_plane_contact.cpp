@@ -1,0 +1,195 @@
+#include "model/contact/mid_plane_contact.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "numerics/gauss.h"
+
+namespace subimpact {
+namespace {
+
+std::atomic<std::uint64_t> n_laws = 0;
+
+template <class F>
+double integral(F f, double from, double to, int panels) {
+  double sum = 0.0;
+  for (int panel = 0; panel < panels; ++panel) {
+    for (std::size_t i = 0; i < gauss<5>.points.size(); ++i) {
+      sum += gauss<5>.weights[i] * f(from + (to - from) * (panel + gauss<5>.points[i]) / panels);
+    }
+  }
+  return (to - from) * sum / panels;
+}
+
+// Newton's method in ln a: the curves are nearly powers, of exponents from 1 to 2.
+template <class Curve>
+double inverse(const Curve& curve, double target, double start) {
+  constexpr int most_steps = 60;
+  constexpr double small = 1e-3, done = 1e-8;  // its square is a rounding
+  double a = start;
+  for (int i = 0; i < most_steps; ++i) {
+    const auto [value, slope] = curve(a);
+    const double exponent = a * slope / value, rest = target / value - 1.0;
+    if (!(std::abs(rest) < small)) {
+      a *= std::exp(std::log1p(rest) / exponent);
+      continue;
+    }
+    a *= 1.0 + rest / exponent * (1.0 + 0.5 * rest * (1.0 / exponent - 1.0));
+    if (std::abs(rest) < done) break;
+  }
+  return a;
+}
+
+}  // namespace
+
+MidPlaneContact::MidPlaneContact(std::string name, NoseOnBeam nose,
+                                 std::optional<MeanPressure> pressure)
+    : name_(std::move(name)),
+      nose_(std::move(nose)),
+      pressure_(std::move(pressure)),
+      first_yield_(pressure_ ? elastic_indentation(nose_.stiffness, pressure_->first_yield).at
+                             : std::numeric_limits<double>::infinity()),
+      serial_(++n_laws) {}
+
+ContactScales MidPlaneContact::scales() const {
+  if (nose_.order != 3) return ContactLaw::scales();
+  return {nose_.stiffness * nose_.radius * std::sqrt(nose_.radius), 1.5};  // Hertz's
+}
+
+double MidPlaneContact::power(double a) const { return nose_.order == 3 ? a * a * a : a * a; }
+
+ValueAndSlope MidPlaneContact::elastic_force(double stiffness, double a) const {
+  return {stiffness * power(a), stiffness * nose_.order * power(a) / a};
+}
+
+ValueAndSlope MidPlaneContact::loading_force(double a) const {
+  if (!pressure_ || a <= pressure_->first_yield) return elastic_force(nose_.stiffness, a);
+  const auto [pressure, slope] = pressure_->beyond_it(a);
+  const double area = nose_.area * power(a) / a;
+  return {area * pressure, area * (slope + (nose_.order - 1) * pressure / a)};
+}
+
+ValueAndSlope MidPlaneContact::indentation(double a, double share, ValueAndSlope force) const {
+  const auto [c, slope] = nose_.compliance(a);
+  return {0.5 * share * a * a / nose_.radius + c * force.at,
+          share * a / nose_.radius + c * force.slope + slope * force.at};
+}
+
+ValueAndSlope MidPlaneContact::elastic_indentation(double stiffness, double a) const {
+  return indentation(a, stiffness / nose_.stiffness, elastic_force(stiffness, a));
+}
+
+double MidPlaneContact::half_width_at(double lambda) const {
+  return inverse([this](double a) { return indentation(a, 1.0, loading_force(a)); }, lambda,
+                 std::sqrt(1.5 * nose_.radius * lambda));
+}
+
+double MidPlaneContact::half_width_of(const Dent& dent, double lambda) const {
+  const double above = std::abs(lambda - dent.residual);
+  if (above == 0.0) return 0.0;
+  return inverse([&](double a) { return elastic_indentation(dent.stiffness, a); }, above,
+                 std::sqrt(nose_.radius * nose_.stiffness / dent.stiffness * above));
+}
+
+// A run asks thousands of times for the same dent.
+MidPlaneContact::Dent MidPlaneContact::dent_of(ContactHistory history) const {
+  const double deepest = history.max_indentation;
+  if (!(deepest > first_yield_)) return {nose_.stiffness, 0.0};
+  struct Last {
+    std::uint64_t law = 0;
+    double deepest = 0.0;
+    Dent dent = {};
+  };
+  thread_local Last last;
+  if (last.law != serial_ || last.deepest != deepest) {
+    const double a = half_width_at(deepest), stiffness = loading_force(a).at / power(a);
+    last = {serial_,
+            deepest,
+            {stiffness, 0.5 * a * a / nose_.radius * (1.0 - stiffness / nose_.stiffness)}};
+  }
+  return last.dent;
+}
+
+double MidPlaneContact::residual_indentation(ContactHistory history) const {
+  return dent_of(history).residual;
+}
+
+double MidPlaneContact::yield_threshold(ContactHistory history) const {
+  return std::max(history.max_indentation, first_yield_);
+}
+
+double MidPlaneContact::largest_indentation() const {
+  if (std::isinf(nose_.widest)) return nose_.widest;
+  return indentation(nose_.widest, 1.0, loading_force(nose_.widest)).at;
+}
+
+// Slopes grow up to the end of the law.
+double MidPlaneContact::largest_slope(double lambda) const {
+  const double x = std::min(lambda, (1.0 - 1e-6) * largest_indentation());
+  return slope({x}, x);
+}
+
+double MidPlaneContact::force(ContactHistory history, double lambda) const {
+  const Dent dent = dent_of(history);
+  return std::copysign(dent.stiffness * power(half_width_of(dent, lambda)), lambda - dent.residual);
+}
+
+double MidPlaneContact::slope(ContactHistory history, double lambda) const {
+  const Dent dent = dent_of(history);
+  const double a = half_width_of(dent, lambda);
+  if (a == 0.0) return 0.0;
+  return elastic_force(dent.stiffness, a).slope / elastic_indentation(dent.stiffness, a).slope;
+}
+
+double MidPlaneContact::plastic_force(double lambda) const {
+  if (!(lambda > first_yield_)) return force({}, lambda);
+  return loading_force(half_width_at(lambda)).at;
+}
+
+double MidPlaneContact::plastic_slope(double lambda) const {
+  if (!(lambda > first_yield_)) return slope({}, lambda);
+  const double a = half_width_at(lambda);
+  const ValueAndSlope force = loading_force(a);
+  return force.slope / indentation(a, 1.0, force).slope;
+}
+
+// The integral of F d lambda, in which that of c F dF is taken by parts.
+double MidPlaneContact::elastic_energy(double stiffness, double a) const {
+  const auto part = [&](double x) {
+    return std::pow(stiffness * power(x), 2) * nose_.compliance(x).slope;
+  };
+  constexpr int panels = 4;
+  const double within = std::min(a, nose_.widest);  // smooth up to there
+  const double rest = integral(part, 0.0, within, panels) + integral(part, within, a, panels);
+  const double force = stiffness * power(a), share = stiffness / nose_.stiffness;
+  return force * (share * a * a / ((nose_.order + 2) * nose_.radius) +
+                  0.5 * force * nose_.compliance(a).at) +
+         0.5 * rest;
+}
+
+double MidPlaneContact::recoverable_energy(ContactHistory history, double lambda) const {
+  const Dent dent = dent_of(history);
+  if (!(lambda > dent.residual)) return 0.0;
+  return elastic_energy(dent.stiffness, half_width_of(dent, lambda));
+}
+
+double MidPlaneContact::dissipated_energy(ContactHistory history) const {
+  if (!(history.max_indentation > first_yield_)) return 0.0;
+  constexpr double panel = 0.125;
+  const double a_y = pressure_->first_yield, a_m = half_width_at(history.max_indentation);
+  // In s, a = a_y cosh s, nothing grows like a root where yielding begins.
+  const double end = std::acosh(std::max(a_m / a_y, 1.0));
+  const auto power_in_s = [&](double s) {
+    const double a = a_y * std::cosh(s);
+    const ValueAndSlope force = loading_force(a);
+    return force.at * indentation(a, 1.0, force).slope * a_y * std::sinh(s);
+  };
+  const double work = integral(power_in_s, 0.0, end, 1 + static_cast<int>(end / panel));
+  const double returned = elastic_energy(loading_force(a_m).at / power(a_m), a_m);
+  return std::max(elastic_energy(nose_.stiffness, a_y) + work - returned, 0.0);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,68 @@
+#include "model/contact/power_contact.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace subimpact {
+
+PowerContact::PowerContact(double stiffness, double exponent, double yield_indentation,
+                           std::string name)
+    : stiffness_(stiffness),
+      exponent_(exponent),
+      yield_indentation_(yield_indentation),
+      name_(std::move(name)) {
+  if (!(stiffness > 0.0) || !std::isfinite(stiffness) || !(exponent >= 1.0) ||
+      !(yield_indentation > 0.0)) {
+    throw std::invalid_argument(
+        "contact law: stiffness and yield indentation must be positive, the exponent at least 1");
+  }
+}
+
+// Powers are odd functions, so that a branch goes on smoothly where a trial step leaves its range.
+double PowerContact::power(double x) const {
+  if (exponent_ == 1.5) return x * std::sqrt(std::abs(x));
+  if (exponent_ == 1.0) return x;
+  return std::copysign(std::pow(std::abs(x), exponent_), x);
+}
+
+double PowerContact::power_slope(double x) const {
+  if (exponent_ == 1.5) return 1.5 * std::sqrt(std::abs(x));
+  return exponent_ * std::pow(std::abs(x), exponent_ - 1.0);
+}
+
+double PowerContact::power_integral(double x) const {
+  return std::abs(x) * std::abs(power(x)) / (exponent_ + 1.0);
+}
+
+double PowerContact::force(ContactHistory history, double indentation) const {
+  return stiffness_ * (power(indentation) - power(residual_indentation(history)));
+}
+
+double PowerContact::slope(ContactHistory /*history*/, double indentation) const {
+  return stiffness_ * power_slope(indentation);
+}
+
+double PowerContact::plastic_force(double indentation) const {
+  return stiffness_ * (power(indentation) - power(indentation - yield_indentation_));
+}
+
+double PowerContact::plastic_slope(double indentation) const {
+  return stiffness_ * (power_slope(indentation) - power_slope(indentation - yield_indentation_));
+}
+
+double PowerContact::recoverable_energy(ContactHistory history, double indentation) const {
+  const ContactHistory now = commit(history, indentation);
+  const double residual = residual_indentation(now);
+  if (indentation <= residual) return 0.0;
+  return stiffness_ * (power_integral(indentation) - power_integral(residual) -
+                       power(residual) * (indentation - residual));
+}
+
+double PowerContact::dissipated_energy(ContactHistory history) const {
+  const double residual = residual_indentation(history);
+  if (residual == 0.0) return 0.0;
+  return stiffness_ * power(residual) * yield_indentation_;
+}
+
+}  // namespace subimpact

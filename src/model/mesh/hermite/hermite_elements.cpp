@@ -1,0 +1,284 @@
+#include "model/mesh/hermite/hermite_elements.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "numerics/bracketed_root.h"
+#include "numerics/gauss.h"
+
+namespace subimpact {
+namespace {
+
+using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
+// In eta = 2 s - 1, from the points up to the middle, which have the most digits.
+template <std::size_t n>
+ElementRule gauss_in_eta() {
+  ElementRule rule;
+  for (std::size_t i = 0; i < n; ++i) {
+    rule.points.push_back(2 * i < n ? 2.0 * gauss<n>.points[i] - 1.0
+                                    : 1.0 - 2.0 * gauss<n>.points[n - 1 - i]);
+    rule.weights.push_back(gauss<n>.weights[i]);
+    rule.of_curvature.push_back({1.0, rule.points.back()});
+  }
+  return rule;
+}
+
+// Two points and weights at distances x (shares of the element) from a hinge that, with the hinge's
+// own weight at 0, integrate 1, x and x^2.
+struct Pair {
+  double near, far, near_weight, far_weight;
+};
+
+Pair pair_with(double near) {
+  const double weight = 1.0 - hinge_share;
+  const double far = (1.0 / 3.0 - 0.5 * near) / (0.5 - weight * near);
+  const double near_weight = (weight * far - 0.5) / (far - near);
+  return {near, far, near_weight, weight - near_weight};
+}
+
+// The pair that integrates x^(-1/2), too.
+Pair pair_beside_hinge() {
+  const double too_near = 1e-3;  // too much of the peak
+  const double too_far = 0.2;    // too little, as at Gauss' 0.211
+  const auto excess = [](double near) {
+    const Pair pair = pair_with(near);
+    return pair.near_weight / std::sqrt(pair.near) + pair.far_weight / std::sqrt(pair.far) - 2.0;
+  };
+  return pair_with(root_in(excess, too_near, too_far));
+}
+
+}  // namespace
+
+ElementRule gauss_rule(std::size_t n) {
+  switch (n) {
+    case 2:
+      return gauss_in_eta<2>();
+    case 3:
+      return gauss_in_eta<3>();
+    case 4:
+      return gauss_in_eta<4>();
+    default:
+      throw std::invalid_argument("hermite mesh: 2, 3 or 4 sections per element");
+  }
+}
+
+ElementRule rule_beside_hinges(bool at_start, bool at_end) {
+  ElementRule rule;
+  if (at_start && at_end) {
+    const double weight = 0.5 - hinge_share;
+    const double eta = std::sqrt((1.0 / 6.0 - hinge_share) / weight);
+    rule = {{-eta, eta}, {weight, weight}, {}};
+  } else {
+    static const Pair pair = pair_beside_hinge();
+    const double near = 1.0 - 2.0 * pair.near;
+    const double far = 1.0 - 2.0 * pair.far;
+    if (at_start) {
+      rule = {{-near, -far}, {pair.near_weight, pair.far_weight}, {}};
+    } else {
+      rule = {{far, near}, {pair.far_weight, pair.near_weight}, {}};
+    }
+  }
+  // The condition on the moments, mean = sum w kappa and half = 3 sum w eta kappa, for two kappa.
+  const auto& eta = rule.points;
+  const auto& w = rule.weights;
+  const double apart = eta[1] - eta[0];
+  rule.of_curvature = {{eta[1] / (w[0] * apart), -1.0 / (3.0 * w[0] * apart)},
+                       {-eta[0] / (w[1] * apart), 1.0 / (3.0 * w[1] * apart)}};
+  return rule;
+}
+
+HermiteElement::HermiteElement(double a, double h)
+    : length(a),
+      slope_unit(h),
+      mean(1.0 / (a * h)),
+      of_displacements(6.0 / (a * a)),
+      of_slopes(3.0 / (a * h)) {}
+
+HermiteElement::Coefficients HermiteElement::curvature(
+    const std::array<double, 2>& of_curvature) const {
+  const auto [of_mean, of_half] = of_curvature;
+  return {of_half * of_displacements, -of_mean * mean + of_half * of_slopes,
+          -of_half * of_displacements, of_mean * mean + of_half * of_slopes};
+}
+
+HermiteElement::Coefficients HermiteElement::displacement(double z) const {
+  const double s = length / slope_unit;
+  return {(1.0 - z) * (1.0 - z) * (1.0 + 2.0 * z), s * z * (1.0 - z) * (1.0 - z),
+          z * z * (3.0 - 2.0 * z), -s * z * z * (1.0 - z)};
+}
+
+HermiteElement::Coefficients HermiteElement::slope(double z) const {
+  const double of_difference = 6.0 * z * (1.0 - z) / length;
+  return {-of_difference, (1.0 - z) * (1.0 - 3.0 * z) / slope_unit, of_difference,
+          z * (3.0 * z - 2.0) / slope_unit};
+}
+
+HermiteElement::Matrix HermiteElement::mass(double mass_per_length, double rotary_inertia) const {
+  const double s = length / slope_unit;  // unknown h t contributes t = (h t)/h
+  Eigen::Matrix4d translation;
+  translation << 156.0, 22.0, 54.0, -13.0,  //
+      22.0, 4.0, 13.0, -3.0,                //
+      54.0, 13.0, 156.0, -22.0,             //
+      -13.0, -3.0, -22.0, 4.0;
+  Eigen::Matrix4d rotation;
+  rotation << 36.0, 3.0, -36.0, 3.0,  //
+      3.0, 4.0, -3.0, -1.0,           //
+      -36.0, -3.0, 36.0, -3.0,        //
+      3.0, -1.0, -3.0, 4.0;
+  const Eigen::Vector4d unit(1.0, s, 1.0, s);
+  Matrix result;
+  Eigen::Map<Matrix4>(result[0].data()) = unit.asDiagonal() *
+                                          (mass_per_length * length / 420.0 * translation +
+                                           rotary_inertia / (30.0 * length) * rotation) *
+                                          unit.asDiagonal();
+  return result;
+}
+
+HermiteElement::Coefficients HermiteElement::momentum(double mass_per_length) const {
+  const double share = mass_per_length * length;
+  const double lever = length / (12.0 * slope_unit);
+  return {0.5 * share, lever * share, 0.5 * share, -lever * share};
+}
+
+HermiteElement::Coefficients HermiteElement::moment(double mass_per_length, double rotary_inertia,
+                                                    double left) const {
+  const double s = length / slope_unit;
+  const double share = mass_per_length * length;
+  return {share * (left / 2.0 + 3.0 * length / 20.0) - rotary_inertia,
+          share * s * (left / 12.0 + length / 30.0),
+          share * (left / 2.0 + 7.0 * length / 20.0) + rotary_inertia,
+          -share * s * (left / 12.0 + length / 20.0)};
+}
+
+double HermiteElement::highest_frequency_squared(const ElementRule& rule,
+                                                 std::array<double, 2> springs,
+                                                 double bending_stiffness,
+                                                 const Matrix& mass) const {
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(4, 4);
+  stiffness(1, 1) = springs[0];
+  stiffness(3, 3) = springs[1];
+  for (std::size_t g = 0; g < rule.size(); ++g) {
+    const Eigen::Vector4d row(curvature(rule.of_curvature[g]).data());
+    stiffness += bending_stiffness * rule.weights[g] * length * row * row.transpose();
+  }
+  const Eigen::MatrixXd inertia = Eigen::Map<const Matrix4>(mass[0].data());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, inertia,
+                                                                         Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(3);
+}
+
+double ElementGrading::elements_within(double d) const {
+  if (refinement == 1.0) return d;
+  const double growth = (1.0 - 1.0 / refinement) / refined_length;  // of the size, a metre
+  if (d <= refined_length) return std::log1p(growth * refinement * d) / growth;
+  return std::log(refinement) / growth + (d - refined_length);
+}
+
+double ElementGrading::distance_of(double elements) const {
+  if (refinement == 1.0) return elements;
+  const double growth = (1.0 - 1.0 / refinement) / refined_length;
+  const double within_refined = std::log(refinement) / growth;
+  if (elements <= within_refined) return std::expm1(growth * elements) / (growth * refinement);
+  return refined_length + (elements - within_refined);
+}
+
+HermiteNodes::HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool is_half,
+                           const Options& chosen)
+    : options(chosen), half(is_half), ends(beam.ends) {
+  if (n_elements < fewest_elements) {
+    throw std::invalid_argument("hermite mesh: at least 4 elements are needed");
+  }
+  if (half && (n_elements % 2 != 0 || position != 0.5 || ends[0] != ends[1])) {
+    throw std::invalid_argument(
+        "hermite mesh: a half model needs an even number of elements, struck at 0.5, and ends "
+        "alike");
+  }
+  place(position * beam.length, half ? 0.0 : (1.0 - position) * beam.length,
+        half ? n_elements / 2 : n_elements);
+  number_unknowns();
+  if (struck_node().displacement == none) {
+    throw std::invalid_argument("hermite mesh: the strike is on a support");
+  }
+}
+
+// Left and right of the strike, nodes are equidistant in elements_within.
+void HermiteNodes::place(double left_length, double right_length, std::size_t n_elements) {
+  const double left = options.grading.elements_within(left_length);
+  const double right = options.grading.elements_within(right_length);
+  struck = n_elements;
+  if (!half) {
+    struck = static_cast<std::size_t>(
+        std::lround(static_cast<double>(n_elements) * left / (left + right)));
+    if (left > 0.0) struck = std::max<std::size_t>(struck, 1);
+    if (right > 0.0) struck = std::min(struck, n_elements - 1);
+  }
+  lengths = lengths_of_side(struck, left_length, left);
+  std::reverse(lengths.begin(), lengths.end());
+  const auto after = lengths_of_side(n_elements - struck, right_length, right);
+  lengths.insert(lengths.end(), after.begin(), after.end());
+}
+
+// From the strike outwards.
+std::vector<double> HermiteNodes::lengths_of_side(std::size_t count, double length,
+                                                  double within) const {
+  std::vector<double> side(count, length / static_cast<double>(count));
+  if (options.grading.refinement == 1.0) return side;
+  double before = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i + 1) / static_cast<double>(count);
+    const double d = i + 1 == count ? length : options.grading.distance_of(within * share);
+    side[i] = d - before;
+    before = d;
+  }
+  return side;
+}
+
+bool HermiteNodes::is_hinge(std::size_t node) const {
+  if (!options.hinges) return false;
+  const bool mirror = half && node == n_elements();
+  if (mirror || (node > 0 && node < n_elements())) return node == struck;
+  return ends[node == 0 ? 0 : 1] == EndSupport::clamped;
+}
+
+void HermiteNodes::number_unknowns() {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i <= n_elements(); ++i) {
+    const bool mirror = half && i == n_elements();
+    EndSupport support = EndSupport::free;
+    if (i == 0) support = ends[0];
+    if (i == n_elements() && !mirror) support = ends[1];
+    Node node{none, none, none};
+    const bool hinge = is_hinge(i);
+    if (hinge && i > 0) node.slope_before = next++;
+    if (support == EndSupport::free) node.displacement = next++;
+    if (hinge) {
+      if (i < n_elements()) node.slope_after = next++;
+    } else if (support != EndSupport::clamped && !mirror) {
+      node.slope_before = node.slope_after = next++;
+    }
+    nodes.push_back(node);
+  }
+  n_unknowns = next;
+}
+
+std::array<std::size_t, 4> HermiteNodes::unknowns_of(std::size_t element) const {
+  const Node& left = nodes[element];
+  const Node& right = nodes[element + 1];
+  return {left.displacement, left.slope_after, right.displacement, right.slope_before};
+}
+
+std::pair<std::size_t, double> HermiteNodes::element_at(double x) const {
+  constexpr double at_node = 1e-9;  // distance in units of an element's length
+  double left = 0.0;
+  std::size_t e = 0;
+  for (; e + 1 < n_elements() && x >= left + (1.0 - at_node) * lengths[e]; ++e) {
+    left += lengths[e];
+  }
+  const double z = (x - left) / lengths[e];
+  return {e, z < at_node ? 0.0 : z > 1.0 - at_node ? 1.0 : z};
+}
+
+}  // namespace subimpact

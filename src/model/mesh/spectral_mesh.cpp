@@ -1,0 +1,350 @@
+#include "model/mesh/spectral_mesh.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "numerics/gauss.h"
+
+namespace subimpact {
+namespace {
+
+constexpr std::size_t n_nodes = SpectralMesh::n_nodes;
+constexpr std::size_t n_points = SpectralMesh::degree;
+
+// Gauss-Lobatto points and weights on [0, 1].
+const std::array<double, n_nodes> nodes = {0.0, 0.5 - 0.5 * std::sqrt(3.0 / 7.0), 0.5,
+                                           0.5 + 0.5 * std::sqrt(3.0 / 7.0), 1.0};
+constexpr std::array<double, n_nodes> node_weights = {1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0,
+                                                      49.0 / 180.0, 1.0 / 20.0};
+
+// Lagrange's polynomials of the nodes, and their derivatives, at the Gauss points.
+struct Shapes {
+  std::array<std::array<double, n_nodes>, n_points> value, slope;
+};
+
+Shapes make_shapes() {
+  Shapes shapes{};
+  for (std::size_t q = 0; q < n_points; ++q) {
+    const double x = gauss<n_points>.points[q];
+    for (std::size_t a = 0; a < n_nodes; ++a) {
+      double value = 1.0, slope = 0.0;
+      for (std::size_t b = 0; b < n_nodes; ++b) {
+        if (b == a) continue;
+        const double gap = nodes[a] - nodes[b];
+        slope = slope * (x - nodes[b]) / gap + value / gap;
+        value *= (x - nodes[b]) / gap;
+      }
+      shapes.value[q][a] = value;
+      shapes.slope[q][a] = slope;
+    }
+  }
+  return shapes;
+}
+
+const Shapes shapes = make_shapes();
+
+double lagrange(std::size_t a, double x) {
+  double value = 1.0;
+  for (std::size_t b = 0; b < n_nodes; ++b) {
+    if (b != a) value *= (x - nodes[b]) / (nodes[a] - nodes[b]);
+  }
+  return value;
+}
+
+std::size_t elements_before(double position, std::size_t n_elements) {
+  return static_cast<std::size_t>(std::clamp(
+      std::lround(position * static_cast<double>(n_elements)), 0L, static_cast<long>(n_elements)));
+}
+
+std::size_t held_by(EndSupport end) {
+  return end == EndSupport::free ? 0 : end == EndSupport::pinned ? 1 : 2;
+}
+
+std::size_t count_unknowns(const Beam& beam, std::size_t n_elements, bool half) {
+  const std::size_t kept = half ? n_elements / 2 : n_elements;
+  return 2 * (SpectralMesh::degree * kept + 1) - held_by(beam.ends[0]) -
+         (half ? 1 : held_by(beam.ends[1]));
+}
+
+}  // namespace
+
+SpectralMesh::SpectralMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent)
+    : BeamMesh(count_unknowns(beam, n_elements, extent == Extent::half), 0, extent == Extent::half),
+      n_elements_(n_elements),
+      n_before_(elements_before(position, n_elements)),
+      gyration_(beam.radius_of_gyration()),
+      mass_per_length_(beam.mass_per_length()),
+      shear_stiffness_per_length_(beam.shear_stiffness()) {
+  if (n_elements < fewest_elements) {
+    throw std::invalid_argument("spectral mesh: at least 2 elements are needed");
+  }
+  if (!beam.shears()) throw std::invalid_argument("spectral mesh: the beam's theory has no shear");
+  if (symmetric() && (n_elements % 2 == 1 || position != 0.5 || beam.ends[0] != beam.ends[1])) {
+    throw std::invalid_argument(
+        "spectral mesh: a half model needs an even number of elements, struck at 0.5, and ends "
+        "alike");
+  }
+  place_elements(beam, position);
+  beam_mass_ = beam.mass();
+  assemble_mass(beam);
+  assemble_shear();
+  place_sections();
+}
+
+void SpectralMesh::place_elements(const Beam& beam, double position) {
+  const std::size_t n_kept = symmetric() ? n_elements_ / 2 : n_elements_;
+  const std::size_t last_node = degree * n_kept;
+  std::vector<std::array<std::size_t, 2>> of_node(last_node + 1);
+  std::size_t next = 0;
+  for (std::size_t node = 0; node <= last_node; ++node) {
+    const bool is_mirror = symmetric() && node == last_node;
+    EndSupport support = EndSupport::free;
+    if (node == 0) support = beam.ends[0];
+    if (node == last_node && !symmetric()) support = beam.ends[1];
+    of_node[node][0] = support == EndSupport::free ? next++ : held;
+    of_node[node][1] = support == EndSupport::clamped || is_mirror ? held : next++;
+  }
+  const auto length_of = [&](double part, std::size_t n) {
+    return part * beam.length / static_cast<double>(std::max<std::size_t>(n, 1));
+  };
+  const double before = length_of(position, n_before_);
+  const double after = length_of(1.0 - position, n_elements_ - n_before_);
+  for (std::size_t e = 0; e < n_kept; ++e) {
+    Element element{e < n_before_ ? before : after, {}, true};
+    for (std::size_t a = 0; a < n_nodes; ++a) {
+      element.unknowns[2 * a] = of_node[degree * e + a][0];
+      element.unknowns[2 * a + 1] = of_node[degree * e + a][1];
+    }
+    element.is_contiguous = std::ranges::count(element.unknowns, held) == 0;
+    elements_.push_back(element);
+  }
+  const std::size_t struck_node = degree * n_before_;
+  if (of_node[struck_node][0] != held) struck_point_.terms = {{of_node[struck_node][0], 1.0}};
+  if (of_node[0][0] != held) first_end_.terms = {{of_node[0][0], 1.0}};
+  if (beam.is_free()) {
+    translation_.assign(n_unknowns(), 0.0);
+    for (const auto& node : of_node) translation_[node[0]] = 1.0;
+  }
+}
+
+void SpectralMesh::assemble_mass(const Beam& beam) {
+  momentum_functional_.assign(n_unknowns(), 0.0);
+  if (!symmetric()) moment_functional_.assign(n_unknowns(), 0.0);
+  const double per_length[2] = {beam.mass_per_length(),
+                                beam.rotary_inertia() / (gyration_ * gyration_)};
+  double start = 0.0;
+  for (const Element& element : elements_) {
+    for (std::size_t i = 0; i < element.unknowns.size(); ++i) {
+      const std::size_t unknown = element.unknowns[i];
+      if (unknown == held) continue;
+      const double mass = copies() * per_length[i % 2] * element.length * node_weights[i / 2];
+      mass_.at(unknown, unknown) += mass;
+      if (i % 2 == 0) momentum_functional_[unknown] += mass;
+      if (symmetric()) continue;
+      const double x = start + nodes[i / 2] * element.length;
+      moment_functional_[unknown] += mass * (i % 2 == 0 ? x : gyration_);
+    }
+    start += element.length;
+  }
+}
+
+void SpectralMesh::assemble_shear() {
+  shear_stiffness_ = BandedMatrix(n_unknowns(), 2 * degree + 1);
+  for (const Element& element : elements_) {
+    for (std::size_t q = 0; q < n_points; ++q) {
+      const double weight =
+          copies() * shear_stiffness_per_length_ * element.length * gauss<n_points>.weights[q];
+      Values row;  // the strain of 1 m in each unknown
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        row[2 * a] = shapes.slope[q][a] / element.length;
+        row[2 * a + 1] = -shapes.value[q][a] / gyration_;
+      }
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        for (std::size_t j = i; j < row.size(); ++j) {
+          const std::size_t from = element.unknowns[i], to = element.unknowns[j];
+          if (from != held && to != held) shear_stiffness_.at(from, to) += weight * row[i] * row[j];
+        }
+      }
+    }
+  }
+}
+
+void SpectralMesh::place_sections() {
+  double start = 0.0;
+  double struck = 0.0;
+  for (std::size_t e = 0; e < n_before_; ++e) struck += elements_[e].length;
+  for (const Element& element : elements_) {
+    const auto kept = std::ranges::count_if(element.unknowns, [](auto u) { return u != held; });
+    const std::size_t first = *std::ranges::min_element(element.unknowns);
+    for (std::size_t q = 0; q < n_points; ++q) {
+      positions_.push_back(start + gauss<n_points>.points[q] * element.length);
+      weights_.push_back(copies() * gauss<n_points>.weights[q] * element.length);
+      std::vector<double> row(static_cast<std::size_t>(kept), 0.0);
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        const std::size_t turn = element.unknowns[2 * a + 1];
+        if (turn != held) row[turn - first] = shapes.slope[q][a] / (gyration_ * element.length);
+      }
+      add_stencil(first, row);
+    }
+    start += element.length;
+  }
+  struck_section_ = nearest_section(struck);
+}
+
+SparseFunctional SpectralMesh::interpolated(double x, std::size_t which) const {
+  std::size_t e = 0;
+  double start = 0.0;
+  for (; e + 1 < elements_.size() && x > start + elements_[e].length; ++e) {
+    start += elements_[e].length;
+  }
+  const Element& element = elements_[e];
+  const double place = std::clamp((x - start) / element.length, 0.0, 1.0);
+  constexpr double rounding = 1e-12;
+  SparseFunctional functional;
+  for (std::size_t a = 0; a < n_nodes; ++a) {
+    const double value = lagrange(a, place);
+    const std::size_t unknown = element.unknowns[2 * a + which];
+    if (unknown != held && std::abs(value) > rounding) functional.terms.push_back({unknown, value});
+  }
+  return functional;
+}
+
+std::optional<SparseFunctional> SpectralMesh::displacement_at(double x) const {
+  return interpolated(x, 0);
+}
+
+std::optional<SparseFunctional> SpectralMesh::rotation_at(double x) const {
+  SparseFunctional rotation;
+  rotation.add(1.0 / gyration_, interpolated(x, 1));
+  return rotation;
+}
+
+void SpectralMesh::read(const Element& element, const double* unknowns, Values& values) {
+  if (element.is_contiguous) {
+    std::copy_n(unknowns + element.unknowns[0], values.size(), values.begin());
+    return;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = element.unknowns[i] == held ? 0.0 : unknowns[element.unknowns[i]];
+  }
+}
+
+void SpectralMesh::add(const Element& element, const Values& forces, double* to) {
+  if (element.is_contiguous) {
+    double* first = to + element.unknowns[0];
+    for (std::size_t i = 0; i < forces.size(); ++i) first[i] += forces[i];
+    return;
+  }
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    if (element.unknowns[i] != held) to[element.unknowns[i]] += forces[i];
+  }
+}
+
+double SpectralMesh::curvature_at(std::size_t point, const Element& element,
+                                  const Values& values) const {
+  double sum = 0.0;
+  for (std::size_t a = 0; a < n_nodes; ++a) sum += shapes.slope[point][a] * values[2 * a + 1];
+  return sum / (gyration_ * element.length);
+}
+
+double SpectralMesh::strain_at(std::size_t point, const Element& element,
+                               const Values& values) const {
+  double rise = 0.0, turn = 0.0;
+  for (std::size_t a = 0; a < n_nodes; ++a) {
+    rise += shapes.slope[point][a] * values[2 * a];
+    turn += shapes.value[point][a] * values[2 * a + 1];
+  }
+  return rise / element.length - turn / gyration_;
+}
+
+void SpectralMesh::curvatures(std::span<const double> unknowns, std::span<double> kappa) const {
+  Values values;
+  double* k = kappa.data();
+  for (const Element& element : elements_) {
+    read(element, unknowns.data(), values);
+    for (std::size_t q = 0; q < n_points; ++q) *k++ = curvature_at(q, element, values);
+  }
+}
+
+void SpectralMesh::bending_forces(std::span<const double> moments, std::span<double> forces) const {
+  std::fill(forces.begin(), forces.end(), 0.0);
+  const double* m = moments.data();
+  for (const Element& element : elements_) {
+    Values out{};
+    for (std::size_t q = 0; q < n_points; ++q) {
+      const double moment = copies() / gyration_ * gauss<n_points>.weights[q] * *m++;
+      for (std::size_t a = 0; a < n_nodes; ++a) out[2 * a + 1] -= moment * shapes.slope[q][a];
+    }
+    add(element, out, forces.data());
+  }
+}
+
+void SpectralMesh::add_shear_forces(std::span<const double> unknowns,
+                                    std::span<double> forces) const {
+  Values values;
+  for (const Element& element : elements_) {
+    read(element, unknowns.data(), values);
+    Values out{};
+    for (std::size_t q = 0; q < n_points; ++q) {
+      const double force = copies() * shear_stiffness_per_length_ * gauss<n_points>.weights[q] *
+                           strain_at(q, element, values);
+      const double couple = force * element.length / gyration_;
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        out[2 * a] -= force * shapes.slope[q][a];
+        out[2 * a + 1] += couple * shapes.value[q][a];
+      }
+    }
+    add(element, out, forces.data());
+  }
+}
+
+double SpectralMesh::shear_energy(std::span<const double> unknowns) const {
+  Values values;
+  double sum = 0.0;
+  for (const Element& element : elements_) {
+    read(element, unknowns.data(), values);
+    for (std::size_t q = 0; q < n_points; ++q) {
+      const double strain = strain_at(q, element, values);
+      sum += element.length * gauss<n_points>.weights[q] * strain * strain;
+    }
+  }
+  return 0.5 * copies() * shear_stiffness_per_length_ * sum;
+}
+
+// No assembly of elements, and no support, has a higher frequency than its highest element.
+double SpectralMesh::highest_frequency(double bending_stiffness) const {
+  double highest = 0.0;
+  for (const Element* element : {&elements_.front(), &elements_.back()}) {
+    const double length = element->length;
+    Eigen::Matrix<double, 2 * n_nodes, 2 * n_nodes> stiffness;
+    stiffness.setZero();
+    for (std::size_t q = 0; q < n_points; ++q) {
+      Eigen::Matrix<double, 2 * n_nodes, 1> bend, shear;
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        const auto i = static_cast<Eigen::Index>(2 * a);
+        // Scaled by the root of the mass, which w and r phi share.
+        const double root = std::sqrt(mass_per_length_ * length * node_weights[a]);
+        bend(i) = 0.0;
+        bend(i + 1) = shapes.slope[q][a] / (gyration_ * length) / root;
+        shear(i) = shapes.slope[q][a] / length / root;
+        shear(i + 1) = -shapes.value[q][a] / gyration_ / root;
+      }
+      const double weight = length * gauss<n_points>.weights[q];
+      stiffness += weight * bending_stiffness * bend * bend.transpose() +
+                   weight * shear_stiffness_per_length_ * shear * shear.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<decltype(stiffness)> solver(stiffness,
+                                                                    Eigen::EigenvaluesOnly);
+    highest = std::max(highest, solver.eigenvalues().maxCoeff());
+  }
+  return std::sqrt(highest);
+}
+
+std::string SpectralMesh::description() const {
+  return std::to_string(n_elements_) + " spectral elements" +
+         (symmetric() ? ", one half by symmetry" : "");
+}
+
+}  // namespace subimpact

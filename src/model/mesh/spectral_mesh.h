@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "subimpact/model/mesh/beam_mesh.h"
+
+namespace subimpact {
+
+/// Elements of a beam whose sections shear, with polynomials of degree 4 for displacement w and
+/// rotation phi of the sections (docs/theory.md, "Spectral elements"). The struck
+/// point is a node; elements to its left have one length, those to its right another one.
+///
+/// Unknowns, from left to right: w and r phi of every node, in m, with the radius of gyration r;
+/// those that supports hold, and the rotation at mid-span under symmetry, are left out.
+///
+/// Source: A. T. Patera, J. Comput. Phys. 54 (1984) 468, for the elements; O. C. Zienkiewicz et
+/// al., Int. J. Num. Meth. Eng. 3 (1971) 275, for the reduced integration.
+class SpectralMesh final : public BeamMesh {
+ public:
+  static constexpr std::size_t degree = 4;
+  static constexpr std::size_t n_nodes = degree + 1;  // of an element
+  static constexpr std::size_t fewest_elements = 2;
+
+  /// `position` is the struck point as a fraction of the length. Throws std::invalid_argument for
+  /// too few elements, for a half model of an odd number of elements, of unlike ends or struck off
+  /// mid-span, and for a beam without shear.
+  SpectralMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent);
+
+  void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
+  void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
+  void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
+  double shear_energy(std::span<const double> unknowns) const override;
+  /// Polynomials of degree 4 in each element.
+  std::optional<SparseFunctional> displacement_at(double x) const override;
+  std::optional<SparseFunctional> rotation_at(double x) const override;
+  double highest_frequency(double bending_stiffness) const override;
+  std::string description() const override;
+
+ private:
+  static constexpr std::size_t n_points = degree;  // Gauss points of an element
+
+  // Indices of an element's unknowns, node by node: w, r phi; `held` for those left out.
+  static constexpr std::size_t held = static_cast<std::size_t>(-1);
+  struct Element {
+    double length;  // m
+    std::array<std::size_t, 2 * n_nodes> unknowns;
+    bool is_contiguous;  // one after the other, none held
+  };
+  using Values = std::array<double, 2 * n_nodes>;
+  static void read(const Element& element, const double* unknowns, Values& values);
+  static void add(const Element& element, const Values& forces, double* to);
+  // At a Gauss point, from the values of an element.
+  double curvature_at(std::size_t point, const Element& element, const Values& values) const;
+  double strain_at(std::size_t point, const Element& element, const Values& values) const;
+
+  void place_elements(const Beam& beam, double position);
+  void assemble_mass(const Beam& beam);
+  void assemble_shear();
+  void place_sections();
+  // Lagrange's polynomials at x for the displacements (0) or the rotations r phi (1).
+  SparseFunctional interpolated(double x, std::size_t which) const;
+
+  std::size_t n_elements_;  // of the whole beam
+  std::size_t n_before_;    // the strike
+  std::vector<Element> elements_;
+  double gyration_, mass_per_length_;
+  double shear_stiffness_per_length_;  // kGA, N
+};
+
+}  // namespace subimpact

@@ -1,0 +1,180 @@
+#include "subimpact/report/pages.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "case/counted.h"
+#include "io/directory/listed_files.h"
+#include "io/records/run_record.h"
+#include "report/pages/page.h"
+#include "report/text/uncertain.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/io/case_file.h"
+#include "subimpact/report/text.h"
+
+namespace subimpact {
+namespace {
+
+Json headlines(const Result& result) {
+  Json list = Json::array();
+  const auto line = [&](bool certain, const std::string& words) {
+    list.push_back(headline(certain, words));
+  };
+  const std::size_t n = result.sub_impacts.size();
+  if (const std::optional<std::size_t> n_certain = result.n_certain()) {
+    const std::string within =
+        result.error_estimate->largest_error > 0.0
+            ? ", each start and end within " + error_text(result.error_estimate->largest_error)
+            : "";
+    if (result.all_certain() && n == 0) {
+      line(true, "that there are no sub-impacts.");
+    } else if (result.all_certain()) {
+      line(true,
+           fmt::format("{}{}, and that there are no others.",
+                       n == 1 ? "the one sub-impact" : "all " + counted(n, "sub-impact"), within));
+    } else {
+      if (*n_certain > 0) {
+        line(true, fmt::format("{} of {}{}.", *n_certain, counted(n, "sub-impact"), within));
+      }
+      const ErrorEstimate& estimate = *result.error_estimate;
+      line(false, fmt::format("{}: {}.",
+                              place_of_doubt(result, *estimate.first_unresolved, estimate.reason),
+                              estimate.reason));
+    }
+  } else {
+    line(false, "event times, count and order of sub-impacts: no error bars were computed.");
+  }
+  line(result.contact_over, "the end of contact: " + contact_over_words(result) + ".");
+  if (result.error_estimate && result.error_estimate->finer_meshes) {
+    line(false, finer_meshes_words(result) + ".");
+  }
+  return list;
+}
+
+Json tiles(const std::vector<Answer>& all) {
+  return list_of(all, [](const Answer& answer) -> Json {
+    const bool of_zone = answer.name.starts_with("  zone");  // on the screen below the impulse
+    return {{"name", (of_zone ? "impulse of" : "") + answer.name.substr(of_zone ? 1 : 0)},
+            {"value", in_print(answer.value)},
+            {"note", in_print(answer.note)}};
+  });
+}
+
+Json figure_list(const DrawnFigures& figures, const std::filesystem::path& figure_directory) {
+  return list_of(figures.drawn, [&, number = 0](const DrawnFigure& figure) mutable -> Json {
+    const std::string svg = read_whole_file(figure_directory / (figure.name + ".svg"));
+    return {{"name", figure.name},
+            {"svg", inlined_svg(svg, figure.name)},
+            {"number", ++number},
+            {"caption", figure.caption}};
+  });
+}
+
+void add_sub_impacts(Json& page, const Result& result) {
+  const SubImpactRows table = sub_impact_rows(result, "±");
+  page["n_columns"] = table.columns.size();
+  page["columns"] = list_of(table.columns, [](const SubImpactRows::Column& column) -> Json {
+    return {{"name", column.name}, {"unit", column.unit == std::string("us") ? "µs" : column.unit}};
+  });
+  Json list = Json::array();
+  int zone = 0, subzone = 0;
+  for (const SubImpact& s : result.sub_impacts) {
+    const SubImpactRows::Row& row = table.rows[list.size()];
+    const bool begins = s.zone != zone || s.subzone != subzone;
+    zone = s.zone;
+    subzone = s.subzone;
+    list.push_back({{"index", list.size()},
+                    {"row_class", row.is_certain ? "" : " class=\"uncertain\""},
+                    {"doubt", in_print(s.doubt)},
+                    {"begins", begins},
+                    {"zone", zone},
+                    {"subzone", subzone},
+                    {"cells", row.cells}});
+  }
+  page["sub_impacts"] = list;
+}
+
+Json flights(const std::optional<ErrorEstimate>& estimate) {
+  if (!estimate) return nullptr;
+  return list_of(estimate->uncertain_flights, [](const auto& flight) -> Json {
+    return {{"after", flight.after + 1}, {"reason", in_print(flight.reason)}};
+  });
+}
+
+}  // namespace
+
+std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
+                        const std::filesystem::path& figure_directory,
+                        const std::filesystem::path& dygraphs, const Overlay* overlay) {
+  const Result& result = run.result;
+  const Scene& scene = run.input.scene;
+  const PageData data = page_data(run.input, result, overlay);
+  const std::vector<Answer> all_answers = answers(run.input, result);
+  std::string versions = run.program_version;
+  for (const auto& [name, version] : run.libraries)
+    versions += fmt::format(", {} {}", name, version);
+  const auto if_any = [](const auto& value, auto words) {
+    return value ? in_print(words(*value)) : std::string();
+  };
+  Json page = {
+      {"title", run.input.title.empty() ? "A strike" : run.input.title},
+      // The first answer, who struck whom, is in the line at the top.
+      {"beam_kg", fmt::format("{:.4g}", scene.beam.mass())},
+      {"meeting", scene.striker.fixed
+                      ? std::string("on a stop")
+                      : fmt::format("struck by {:.4g} kg at {:.4g} m/s", scene.striker.mass,
+                                    scene.bodies().striker_velocity())},
+      {"besides", others_in_scene(scene).empty() ? "" : " (" + others_in_scene(scene) + ")"},
+      {"outcome", to_string(result.outcome.kind)},
+      {"end", in_print(duration_text(result.outcome.time))},
+      {"toml", case_file_text(run.input)},
+      {"data", data.json},
+      {"history_note", data.history_note},
+      {"shapes_note", data.shapes_note},
+      {"versions", versions},
+      {"headlines", headlines(result)},
+      {"tolerance",
+       if_any(result.tolerance, [&](const auto& t) { return tolerance_words(t, result); })},
+      {"tolerance_class", result.tolerance && result.tolerance->met ? "met" : "warning"},
+      {"scatter_table",
+       if_any(result.predictability, [&](const auto&) { return scatter_table(result); })},
+      {"caveat", in_print(outcome_caveat(result))},
+      {"cause", result.outcome.completed() ? "" : in_print(result.outcome.message)},
+      {"warnings", result.warnings},
+      {"tiles", tiles({all_answers.begin() + 1, all_answers.end()})},
+      {"measured", overlay != nullptr ? Json{{"answers", tiles(answers(*overlay))},
+                                             {"doubt", in_print(overlay_doubt(*overlay))}}
+                                      : Json(nullptr)},
+      {"flights", flights(result.error_estimate)},
+      {"summary", in_print(run_summary(run.input, result, true))},
+      {"figures", figure_list(figures, figure_directory)},
+      {"left_out", figures.left_out},
+      {"failed", figures.failed},
+      {"numbers", list_of(scalars_of(run), [](const NamedScalar& scalar) -> Json {
+         return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
+       })}};
+  add_sub_impacts(page, result);
+  return whole_page("pages/web/report.html", page, chart_library(dygraphs),
+                    {"pages/web/data.js", "pages/web/axes.js", "pages/web/surroundings.js",
+                     "pages/web/motion.js", "pages/web/panels.js", "pages/web/report.js"});
+}
+
+WrittenReport write_html_report(const std::filesystem::path& directory,
+                                const std::filesystem::path& figure_directory,
+                                const FinishedRun& run, const std::filesystem::path& dygraphs,
+                                const Overlay* overlay) {
+  DrawnFigures figures = draw_figures(figure_directory, run.input, run.result, {}, overlay);
+  std::filesystem::path path = directory / "report.html";
+  try {
+    write_file(path, html_report(run, figures, figure_directory, dygraphs, overlay));
+  } catch (const OutputError& error) {
+    figures.failed.push_back(error.what());
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    path.clear();
+  }
+  return {path, std::move(figures), chart_library(dygraphs).missing};
+}
+
+}  // namespace subimpact

@@ -1,0 +1,330 @@
+'use strict';
+// Joins the panels of a page: one time and one part of the strike for all of them.
+
+function addCopyButton() {
+  const button = byId('copy');
+  if (!button) return;
+  button.addEventListener('click', async () => {
+    getSelection().selectAllChildren(byId('toml'));
+    let copied = false;
+    try {
+      await navigator.clipboard.writeText(byId('toml').textContent);
+      copied = true;
+    } catch {  // without leave for the clipboard
+      copied = document.execCommand('copy');
+    }
+    button.textContent = copied ? 'Copied' : 'Selected: copy it with Ctrl+C';
+  });
+}
+
+// Rows of a chart: time, then columns of the history times their factors. Where two rows have one
+// time, before and after an event, both are kept.
+function chartRows(strike, columns) {
+  const {times, history, time_unit: unit} = strike;
+  return Array.from(times, (time, i) =>
+    [time * unit.per_second, ...columns.map(({name, factor = 1}) => factor * history[name][i])]);
+}
+
+const timeCharts = [
+  {id: 'chart-force', label: 'force, N', columns: [{name: 'force_N', label: 'contact force'}]},
+  {id: 'chart-displacement', label: 'displacement, mm', columns: [
+    {name: 'w_c_m', label: 'struck point w_c', factor: 1e3},
+    {name: 'w_m_m', label: 'striker w_m', factor: 1e3},
+    {name: 'f_c_m', label: 'deflection f_c = w_c − w(0)', factor: 1e3}]},
+  {id: 'chart-energy', label: 'energy, J', columns: [
+    {name: 'U_m_J', label: 'striker U_m'}, {name: 'U_k_J', label: 'beam, kinetic U_k'},
+    {name: 'U_e_J', label: 'bending, elastic U_e'}, {name: 'U_p_J', label: 'bending, plastic U_p'},
+    {name: 'D_c_J', label: 'contact, plastic D_c'}, {name: 'U_c_J', label: 'contact, elastic U_c'},
+    {name: 'D_b_J', label: 'damping of the beam D_b', ifAny: true}]},
+];
+
+class Page {
+  constructor(data) {
+    const strike = this.strike = new Strike(data);
+    const view = this.view = new View(strike.end);
+    this.player = new Player(view);
+    this.charts = [];
+    this.chosen = -1;
+    this.motion = strike.hasShapes ? new Motion(strike, byId('shape'), byId('moment')) : null;
+    byId('motion').hidden = !strike.hasShapes;
+    this.loop = strike.hasHistory ? new Loop(strike, byId('loop'), view) : null;
+    this.timeline = strike.sub_impacts.length > 0
+      ? new Timeline(strike, byId('timeline'), view, (index) => this.choose(index)) : null;
+    byId('loop').closest('.panel').hidden = !this.loop;
+    byId('timeline').closest('.panel').hidden = !this.timeline;
+    byId('along').hidden = !strike.envelope;
+    this.addCharts();
+    this.addControls();
+    this.addTable();
+    document.addEventListener('keydown', (event) => this.key(event));
+    view.onChange((what) => this.later(what));
+    new ResizeObserver(() => this.later('size')).observe(document.body);
+    this.watchPanels();
+    addThemeButton(() => this.restyle());
+    // The page opens on the largest force.
+    const [hardest] = [...strike.sub_impacts].sort((a, b) => b.peak_force - a.peak_force);
+    if (hardest) view.setTime(hardest.peak_time);
+    this.drawAll();
+  }
+
+  addCharts() {
+    const {strike} = this;
+    if (typeof Dygraph === 'undefined' || !strike.hasHistory) {
+      byId('charts').hidden = true;
+      document.getElementById('chart-measured')?.remove();
+      return;
+    }
+    for (const {id, label, columns: all} of timeCharts) {
+      const columns = all.filter(({name, ifAny}) => !ifAny || strike.history[name].some((value) => value !== 0));
+      this.addChart(id, label, columns.map((column) =>
+        ({...column, label: column.label.replace('striker', strike.stop ? 'stop' : 'striker')})));
+    }
+    if (strike.overlay) this.addOverlay();
+    const columns = Object.keys(strike.meanings).filter((name) => strike.history[name].some(Number.isFinite));
+    const select = byId('column');
+    for (const name of columns) select.append(new Option(`${name}: ${strike.meanings[name]}`, name));
+    const draw = () => this.addChart('chart-any', select.value, [{name: select.value, label: select.value}]);
+    select.addEventListener('change', () => {
+      this.charts.pop().remove();
+      draw();
+      this.charts.at(-1).showPart();
+    });
+    select.value = 'v_m_m_per_s';
+    draw();
+  }
+
+  addChart(id, valueLabel, columns) {
+    const {strike, view} = this;
+    this.charts.push(new TimeChart(byId(id), {
+      rows: chartRows(strike, columns), labels: columns.map((column) => column.label), valueLabel,
+      unit: strike.time_unit, bands: bandsOf(strike.sub_impacts, strike.time_unit), view}));
+  }
+
+  // Measured and computed force, each at its own times.
+  addOverlay() {
+    const {overlay, time_unit: unit, sub_impacts: hits} = this.strike;
+    const rows = overlay.map(unpackedColumns).flatMap(({time_s: times, force_N: forces}, k) => Array.from(
+      times, (time, i) => [time * unit.per_second, k === 0 ? forces[i] : null, k === 1 ? forces[i] : null]));
+    this.charts.push(new TimeChart(byId('chart-measured'), {
+      rows: rows.sort((a, b) => a[0] - b[0]), labels: ['measured', 'computed, as the transducer shows it'],
+      valueLabel: 'force, N', unit, bands: bandsOf(hits, unit), view: this.view}));
+  }
+
+  // Canvases out of sight are not painted while the picture moves.
+  watchPanels() {
+    const watcher = new IntersectionObserver((entries) => {
+      for (const {target, isIntersecting} of entries) target.classList.toggle('away', !isIntersecting);
+    }, {rootMargin: '200px'});
+    document.querySelectorAll('#strike .panel').forEach((panel) => watcher.observe(panel));
+  }
+
+  // Drawing waits for the next frame, so that many changes within one are drawn once.
+  later(what) {
+    this.waiting ??= new Set();
+    if (this.waiting.size === 0) requestAnimationFrame(() => this.drawWaiting());
+    this.waiting.add(what);
+  }
+
+  drawWaiting() {
+    const waiting = this.waiting;
+    this.waiting = new Set();
+    if (waiting.has('size')) this.drawAll();
+    else if (waiting.has('part')) this.drawPart();
+    this.drawTime();
+  }
+
+  drawAll() {
+    this.drawPart();
+    this.drawEnvelope();
+    this.drawTime();
+  }
+
+  drawPart() {
+    this.charts.forEach((chart) => chart.showPart());
+    this.loop?.drawPart();
+    this.timeline?.drawPart();
+    byId('part').textContent = this.view.words(this.strike.time_unit);
+  }
+  drawTime() {
+    const {time, end} = this.view;
+    this.motion?.drawAt(time);
+    this.charts.forEach((chart) => chart.showTime());
+    this.loop?.drawTime();
+    this.timeline?.drawTime();
+    if (document.activeElement !== byId('time') || this.player.playing) byId('time').value = 1e4 * time / end;
+    byId('readout').textContent = this.words();
+  }
+
+  restyle() {
+    this.charts.forEach((chart) => chart.restyle());
+    this.drawAll();
+  }
+
+  drawEnvelope() {
+    const {strike} = this;
+    if (!strike.envelope) return;
+    const {moment, displacement, permanent_set: set} = strike.envelope;
+    const mm = (values) => values.map((value) => 1e3 * value);
+    drawAlongBeam(strike, byId('envelope'), {label: 'displacement, mm', lines: [
+      {name: 'largest w', values: mm(displacement.largest)}, {name: 'smallest w', values: mm(displacement.smallest)}]});
+    drawAlongBeam(strike, byId('envelope-moment'), {label: 'moment, N m', zones: strike.plastic_zones, lines: [
+      {name: 'largest moment', values: moment.largest}, {name: 'smallest moment', values: moment.smallest}]});
+    byId('set').closest('.panel').hidden = !strike.yields;
+    if (strike.yields) {
+      drawAlongBeam(strike, byId('set'), {label: 'permanent set, mm', zones: strike.plastic_zones,
+                                          lines: [{name: 'at rest, from its supports or chord', values: mm(set)}]});
+    }
+  }
+
+  words() {
+    const {strike, view: {time}} = this;
+    const {per_second, name} = strike.time_unit;
+    const event = strike.eventAt(time);
+    const index = strike.subImpactAt(time);
+    const parts = [`t = ${(time * per_second).toFixed(name === 'µs' ? 3 : 6)} ${name}`];
+    if (event) parts.push(`event: ${eventKinds[event.kind].name}`);
+    parts.push(index < 0 ? 'apart' : `in sub-impact ${index + 1}${strike.sub_impacts[index].certain ? '' : ' (not certain)'}`);
+    if (strike.hasHistory) {
+      const depth = 1e3 * strike.at('indentation_m', time);
+      parts.push(`force ${printed(strike.at('force_N', time))} N`,
+                 `${depth < 0 ? 'gap' : 'indentation'} ${printed(Math.abs(depth))} mm`,
+                 `striker ${printed(strike.at('v_m_m_per_s', time))} m/s`);
+    }
+    return parts.join(' · ');
+  }
+
+  announce() { byId('announced').textContent = this.words(); }
+
+  step(sense) {
+    this.player.pause();
+    const event = this.strike.eventBeside(this.view.time, sense);
+    this.view.setTime(event ? event.time : sense > 0 ? this.view.end : 0);
+    const {time, from, to} = this.view;
+    if (time < from || time > to) this.view.setPart(time - 0.5 * (to - from), time + 0.5 * (to - from));
+    this.drawWaiting();
+    this.announce();
+  }
+
+  // All panels go to a sub-impact.
+  choose(index) {
+    const hit = this.strike.sub_impacts[index];
+    if (!hit) return;
+    this.player.pause();
+    this.chosen = index;
+    const margin = 0.25 * Math.max(hit.end - hit.start, 1e-5 * this.view.end);
+    this.view.setPart(hit.start - margin, hit.end + margin);
+    this.view.setTime(hit.start);
+    document.querySelectorAll('[data-hit]').forEach((row) =>
+      row.classList.toggle('chosen', Number(row.dataset.hit) === index));
+    this.drawWaiting();
+    this.announce();
+  }
+
+  chooseBeside(sense) {
+    const hits = this.strike.sub_impacts;
+    const now = this.chosen >= 0 ? this.chosen : -0.5 * (1 + sense);
+    this.choose(Math.min(Math.max(now + sense, 0), hits.length - 1));
+  }
+
+  showAll() {
+    this.chosen = -1;
+    document.querySelectorAll('[data-hit].chosen').forEach((row) => row.classList.remove('chosen'));
+    this.view.showAll();
+  }
+
+  addTable() {
+    for (const row of document.querySelectorAll('[data-hit]')) {
+      const index = Number(row.dataset.hit);
+      row.addEventListener('click', () => {
+        this.choose(index);
+        byId('strike').scrollIntoView({block: 'start'});
+      });
+      const cell = row.cells[0];
+      const button = document.createElement('button');
+      button.textContent = cell.textContent.trim();
+      button.setAttribute('aria-label', `show sub-impact ${index + 1} in all panels`);
+      cell.replaceChildren(button);
+    }
+  }
+
+  addControls() {
+    const {view, player, strike} = this;
+    player.changed = () => {
+      byId('play').textContent = player.playing ? 'Pause' : 'Play';
+      document.documentElement.classList.toggle('playing', player.playing);
+    };
+    byId('play').addEventListener('click', () => player.toggle());
+    byId('back').addEventListener('click', () => this.step(-1));
+    byId('next').addEventListener('click', () => this.step(1));
+    byId('all').addEventListener('click', () => this.showAll());
+    byId('time').addEventListener('input', () => view.setTime(byId('time').value / 1e4 * view.end));
+    this.addSpeeds();
+    if (!this.motion) return;
+    const exaggeration = byId('exaggeration');
+    exaggeration.value = 100 * Math.log10(this.motion.exaggeration);
+    exaggeration.addEventListener('input', () => this.exaggerate(10 ** (exaggeration.value / 100)));
+    this.exaggerate(this.motion.exaggeration);
+    byId('follow').checked = this.motion.follows;
+    byId('follow').addEventListener('change', () => {
+      this.motion.follows = byId('follow').checked;
+      exaggeration.value = 100 * Math.log10(this.motion.suitable());
+      this.exaggerate(this.motion.suitable());
+    });
+    byId('plastic-key').hidden = !(this.motion.largestPlastic > 0);
+  }
+
+  exaggerate(factor) {
+    this.motion.exaggeration = factor;
+    byId('exaggeration-text').textContent = '×' + printed(factor, 2);
+    this.later('time');
+  }
+
+  // Microseconds of the strike per second; the whole of it in some half a minute at first.
+  addSpeeds() {
+    const {player, view} = this;
+    const speeds = [];
+    for (let decade = 1e-7; decade < 1e2; decade *= 10) speeds.push(decade, 2 * decade, 5 * decade);
+    const suitable = speeds.findLast((speed) => speed <= view.end / 20) ?? speeds[0];
+    const near = speeds.filter((speed) => speed > suitable / 1200 && speed < 30 * suitable);
+    for (const speed of near) byId('speed').append(new Option(printed(1e6 * speed, 3) + ' µs per second', speed));
+    byId('speed').value = String(suitable);
+    player.speed = suitable;
+    byId('speed').addEventListener('change', () => { player.speed = Number(byId('speed').value); });
+  }
+
+  changeSpeed(sense) {
+    const speed = byId('speed');
+    speed.selectedIndex = Math.min(Math.max(speed.selectedIndex + sense, 0), speed.length - 1);
+    this.player.speed = Number(speed.value);
+  }
+
+  key(event) {
+    const tag = event.target.tagName;
+    if (tag === 'SELECT' || (tag === 'INPUT' && event.key.startsWith('Arrow'))) return;
+    if (tag === 'BUTTON' && (event.key === ' ' || event.key === 'Enter')) return;
+    const {view, player} = this;
+    const small = (view.to - view.from) / 200;
+    actOn(event, {
+      ' ': () => player.toggle(),
+      ArrowRight: () => (event.shiftKey ? view.setTime(view.time + small) : this.step(1)),
+      ArrowLeft: () => (event.shiftKey ? view.setTime(view.time - small) : this.step(-1)),
+      Home: () => view.setTime(0),
+      End: () => view.setTime(view.end),
+      n: () => this.chooseBeside(1),
+      p: () => this.chooseBeside(-1),
+      '+': () => view.zoom(0.5),
+      '-': () => view.zoom(2),
+      0: () => this.showAll(),
+      Escape: () => this.showAll(),
+      '[': () => this.changeSpeed(-1),
+      ']': () => this.changeSpeed(1),
+    });
+  }
+}
+
+if (typeof Dygraph === 'undefined') byId('stills').classList.add('open');
+byId('show-stills').addEventListener('click', () => {
+  byId('show-stills').setAttribute('aria-expanded', String(byId('stills').classList.toggle('open')));
+});
+addCopyButton();
+startPage((data) => new Page(data));

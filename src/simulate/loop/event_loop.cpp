@@ -1,0 +1,316 @@
+#include "simulate/loop/event_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "numerics/units.h"
+
+namespace subimpact {
+namespace {
+
+// Within the shortest duration of a contact four events are possible: contact begins, yields,
+// unloads and ends. Many more than four events count as chattering.
+constexpr long most_events_in_place = 64;
+
+// Tolerated value of the event function at a located event, in units of the rounding of
+// displacements, velocities and times.
+constexpr double tolerated_rounding = 64.0;
+
+// Steps for which a run with a wrong energy is continued, to decide whether it is unstable.
+constexpr long most_steps_ahead = 20000;
+
+ContactBranch branch_after(EventKind kind) {
+  if (kind == EventKind::contact_yields) return ContactBranch::plastic;
+  return kind == EventKind::contact_ends ? ContactBranch::separated : ContactBranch::elastic;
+}
+
+}  // namespace
+
+EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, Audit& audit,
+                     LoopOptions options)
+    : beam_(beam),
+      integrator_(integrator),
+      observer_(&observer),
+      audit_(&audit),
+      options_(options),
+      corrector_(beam, options.correction_tolerance),
+      locator_(beam, integrator, corrector_, options.events, options.double_roots),
+      losses_(audit.tolerated_loss()) {
+  const bool located = options.events != EventHandling::interpolated;
+  const bool corrects = located && std::isfinite(options.correction_tolerance);
+  beam_.contact().set_evaluation(located ? Evaluation::smooth : Evaluation::switching);
+  beam_.set_section_evaluation(corrects ? Evaluation::smooth : Evaluation::switching);
+}
+
+void EventLoop::start() {
+  const State y = beam_.initial_state();
+  end_state_ = y;
+  state_ = &end_state_;
+  beam_.commit(y);
+  if (options_.begins_apart) return start_from(y);
+  if (options_.first_touch > 0.0) observer_->on_approach(options_.first_touch, beam_);
+  report({EventKind::contact_begins}, options_.first_touch, y, true);
+  start_from(y);
+}
+
+void EventLoop::start_from(const State& y) {
+  beam_.commit(y);
+  resume(options_.first_touch, y);
+}
+
+void EventLoop::resume(double time, const State& y) {
+  time_ = time;
+  end_state_ = y;
+  state_ = &end_state_;  // where the run stands if the integrator cannot even begin
+  integrator_.restart(time_, y);
+  state_ = &integrator_.state();
+  read_indentation();
+}
+
+void EventLoop::read_indentation() {
+  indentation_.lambda1 = beam_.indentation(*state_);
+  indentation_.rate1 = beam_.indentation_rate(*state_);
+}
+
+void EventLoop::advance() {
+  integrator_.step();
+  evaluations_at_end_ = beam_.n_accelerations();
+  ++n_steps_;
+  state_ = &integrator_.start_state();  // until the step's end is found good
+  const State& end = integrator_.state();
+  indentation_ = {integrator_.start_time(), integrator_.time(),     indentation_.lambda1,
+                  indentation_.rate1,       beam_.indentation(end), beam_.indentation_rate(end)};
+  check_step_end();
+  const bool suspicious =
+      audit_->is_suspicious(indentation_.t1, end, indentation_.lambda1, indentation_.rate1);
+  if (options_.events == EventHandling::interpolated) {
+    interpolate_events();
+  } else {
+    locate_events();
+  }
+  check_accepted(suspicious);
+  observer_->on_accepted(time_, *state_, beam_);
+}
+
+void EventLoop::check_step_end() {
+  // A step of flight may be long; only its part before the touch counts.
+  if (!beam_.contact().is_closed() && options_.events != EventHandling::interpolated) return;
+  if (!(indentation_.lambda1 >= options_.largest_indentation)) return;
+  audit_->check(integrator_.time(), integrator_.state());  // a blow-up is called by its name
+  throw RunStopped(OutcomeKind::left_validity,
+                   "the indentation reached " + options_.end_of_law +
+                       "; reduce striker.velocity or striker.mass, or make the contact stiffer");
+}
+
+void EventLoop::check_accepted(bool now) {
+  if (now || finished() || n_steps_ % options_.audit_interval == 0) audit_->check(time_, *state_);
+}
+
+bool EventLoop::energy_keeps_growing() {
+  Audit without_limits = audit_->without_limits();
+  RunObserver nobody;
+  audit_ = &without_limits;
+  observer_ = &nobody;
+  const State y = *state_;
+  beam_.commit(y);  // a check at an event may have failed before
+  try {
+    integrator_.restart(time_, y);
+    for (long n = 0; n < most_steps_ahead && !finished(); ++n) {
+      advance();
+      audit_->check(time_, *state_);
+    }
+  } catch (const RunStopped& stop) {
+    return stop.kind == OutcomeKind::unstable;
+  } catch (const IntegrationFailure&) {
+  }
+  return false;
+}
+
+StepEnds EventLoop::step_to_end_time() {
+  const double end = std::min({integrator_.time(), options_.end_time, beam_.loads().next_corner()});
+  const State* y1 = &integrator_.state();
+  if (end < integrator_.time()) {
+    integrator_.state_at(end, end_state_);
+    y1 = &end_state_;
+  }
+  return {integrator_.start_time(), end, integrator_.start_state(), *y1,
+          integrator_.is_event_free()};
+}
+
+IndentationStep EventLoop::indentation_of(const StepEnds& piece) const {
+  IndentationStep ends = indentation_;
+  ends.t0 = piece.t0;
+  ends.t1 = piece.t1;
+  if (&piece.y0 != &integrator_.start_state()) {
+    ends.lambda0 = beam_.indentation(piece.y0);
+    ends.rate0 = beam_.indentation_rate(piece.y0);
+  }
+  if (&piece.y1 != &integrator_.state()) {
+    ends.lambda1 = beam_.indentation(piece.y1);
+    ends.rate1 = beam_.indentation_rate(piece.y1);
+  }
+  return ends;
+}
+
+void EventLoop::show_piece(const StepEnds& piece, bool from_end) {
+  const IndentationStep indentation = indentation_of(piece);
+  const ObservedStep step(piece, indentation, integrator_, corrector_, from_end);
+  observer_->on_step(step, beam_);
+  if (beam_.has_losses()) {
+    beam_.add_losses(losses_.over(step, step.t1(), step.y1(), beam_));
+  }
+}
+
+void EventLoop::locate_events() {
+  const StepEnds whole = step_to_end_time();
+  const auto [t1, found, event] = locator_.find_end(whole, indentation_of(whole));
+  const State* y1 = found;
+  show_piece({whole.t0, t1, whole.y0, *y1, whole.event_free});
+  const bool is_corrected = !locator_.correction().is_empty();
+  if (is_corrected) {
+    event_state_ = *y1;
+    locator_.correction().add_to(event_state_);
+    y1 = &event_state_;
+    report_reversals();
+  }
+  time_ = t1;
+  state_ = y1;
+  if (event) {
+    report(*event, t1, *y1, true);
+  } else {
+    beam_.commit(*y1);
+  }
+  const bool at_corner = pass_corner(t1, *y1);
+  if (!event && !is_corrected && !at_corner && t1 == whole.t1) return;
+  integrator_.restart(t1, *y1);
+  if (event && event->kind == EventKind::contact_begins) {
+    integrator_.limit_next_step(options_.first_step_of_contact);
+  }
+  state_ = &integrator_.state();
+  read_indentation();
+}
+
+bool EventLoop::pass_corner(double t, const State& y) {
+  if (!(t >= beam_.loads().next_corner())) return false;
+  beam_.begin_loads(y, t);
+  return true;
+}
+
+void EventLoop::report_reversals() {
+  reversals_.clear();
+  for (const SectionEvent& event : locator_.correction().events) {
+    if (!event.reversal) continue;
+    const auto& [time, curvature] = *event.reversal;
+    beam_.commit_reversal(event.section, curvature);
+    reversals_.push_back({time, EventKind::section_reverses, event.section, curvature});
+  }
+  std::sort(reversals_.begin(), reversals_.end(),
+            [](const Transition& a, const Transition& b) { return a.time < b.time; });
+  for (const Transition& reversal : reversals_) observer_->on_reversal(reversal);
+}
+
+void EventLoop::report(const EventFunction& function, double time, const State& y,
+                       bool changes_branch) {
+  if (function.kind == EventKind::contact_ends && beam_.contact().is_recovering()) {
+    beam_.commit(y);  // the surface has recovered; no force changes
+    beam_.contact().pass(function, beam_.indentation(y));
+    return;
+  }
+  const Transition event{time, function.kind, {}, beam_.indentation(y)};
+  if (changes_branch) check_root(function, time, y);
+  watch_for_chattering(time);
+  const bool audited = observer_->audits_events();
+  if (!audited) audit_->check(time, y);
+  ++n_events_;
+  observer_->before_event(event, y, beam_);
+  if (changes_branch) {
+    beam_.commit(y);
+    beam_.contact().pass(function, beam_.indentation(y));
+  } else {
+    beam_.contact().set(branch_after(function.kind), beam_.contact().history());
+  }
+  if (!audited) audit_->check(time, y);
+  observer_->after_event(event, y, beam_);
+}
+
+void EventLoop::check_root(const EventFunction& function, double time, const State& y) {
+  beam_.set_time(time);
+  const EventValue at = beam_.evaluate(function, y);
+  double tolerated = tolerated_rounding * rounding_of(function, beam_, y, time, at);
+  if (const auto root = integrator_.root()) tolerated += std::abs(at.rate) * root->tolerance;
+  if (!(std::abs(at.value) <= tolerated)) {
+    audit_->fail(time, OutcomeKind::inaccurate,
+                 "{} was located at {:.6g} us, but its condition is missed there by {:.2e} {}, "
+                 "tolerated are {:.1e}",
+                 to_string(function.kind), us * time, at.value, function.of_rate() ? "m/s" : "m",
+                 tolerated);
+  }
+  if (!(time >= last_event_)) {
+    audit_->fail(time, OutcomeKind::inaccurate,
+                 "{} was located at {:.6g} us, before the event that precedes it",
+                 to_string(function.kind), us * time);
+  }
+  if (function.kind == EventKind::contact_begins) contact_start_ = time;
+  if (function.kind == EventKind::contact_ends && !(time > contact_start_)) {
+    audit_->fail(time, OutcomeKind::inaccurate,
+                 "the contact that begins at {:.6g} us ends at the same instant", us * time);
+  }
+  last_event_ = time;
+}
+
+void EventLoop::watch_for_chattering(double time) {
+  if (time - events_since_ > options_.shortest_contact) {
+    events_since_ = time;
+    n_events_in_place_ = 0;
+  }
+  if (++n_events_in_place_ <= most_events_in_place) return;
+  audit_->fail(time, OutcomeKind::chattering,
+               "the contact changed its state {} times within {:.2e} us", n_events_in_place_,
+               us * (time - events_since_));
+}
+
+void EventLoop::interpolate_events() {
+  const StepEnds step = step_to_end_time();
+  const ContactState& contact = beam_.contact();
+  const IndentationStep whole = indentation_of(step);
+  const ContactBranch after = contact.law().branch(contact.history(), whole.lambda1);
+  double t0 = step.t0;
+  const State* y0 = &step.y0;
+  bool from_end = false;
+  if (after != contact.branch()) {
+    for (const auto& [kind, time] : subimpact::interpolate_events(contact, whole, after)) {
+      // Forces act at the ends of steps: before contact begins the motion is that of the step's
+      // start, after it ends that of the step's end, both without the contact force.
+      from_end = kind == EventKind::contact_ends;
+      piece_start_ = *y0;
+      const StepEnds piece{t0, time, piece_start_, event_state_};
+      if (from_end) {
+        integrator_.state_before_end(time, event_state_);
+      } else {
+        integrator_.state_at(time, event_state_);
+      }
+      show_piece(piece);
+      report({kind}, time, event_state_, false);
+      t0 = time;
+      y0 = &event_state_;
+    }
+    beam_.contact().follow(whole.lambda1);
+  }
+  show_piece({t0, step.t1, *y0, step.y1}, from_end);
+  const bool is_evaluated_last =
+      integrator_.ends_at_last_evaluation() && beam_.n_accelerations() == evaluations_at_end_;
+  if (is_evaluated_last) {
+    beam_.commit_evaluated(step.y1);
+  } else {
+    beam_.commit(step.y1);
+  }
+  time_ = step.t1;
+  state_ = &step.y1;
+  if (!pass_corner(time_, *state_)) return;
+  integrator_.restart(time_, *state_);
+  state_ = &integrator_.state();
+  read_indentation();
+}
+
+}  // namespace subimpact

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "simulate/loop/observed_step.h"
+
+namespace subimpact {
+
+/// Integral of the contact force over time, from the indentation alone: independent of the
+/// striker's velocity, whose change it must equal (docs/theory.md, "Accounts").
+class ForceQuadrature {
+ public:
+  /// `tolerance` of a step's integral, N s.
+  explicit ForceQuadrature(double tolerance) : tolerance_(tolerance) {}
+
+  /// Call where the force or one of its derivatives may jump: at events.
+  void forget_neighbour() { previous_.reset(); }
+
+  /// Integral over a step, N s.
+  double over(const ObservedStep& step, const StruckBeam& beam);
+  /// The largest indentation (m) that over() has evaluated within the step, without its ends.
+  double largest_indentation() const { return largest_indentation_; }
+  /// The integral without correction or halving, for steps in pieces.
+  double roughly_over(const ObservedStep& step, const StruckBeam& beam) const;
+
+ private:
+  struct Node {
+    double time, indentation, rate;
+  };
+  static Node node(double time, const State& y, const StruckBeam& beam) {
+    return {time, beam.indentation(y), beam.indentation_rate(y)};
+  }
+  static std::pair<Node, Node> ends_of(const ObservedStep& step) {
+    const IndentationStep& ends = step.indentation();
+    return {{ends.t0, ends.lambda0, ends.rate0}, {ends.t1, ends.lambda1, ends.rate1}};
+  }
+  static double between(const Node& a, const Node& b, const StruckBeam& beam);
+  double halved(const Node& a, const Node& b, double whole, const ObservedStep& step,
+                const StruckBeam& beam, int depth);
+
+  struct Step {
+    Node start;
+    double length, integral;
+    double constant;  // of its error, constant length^5; 0 where no step before it tells
+  };
+  double tolerance_;
+  std::optional<Step> previous_;
+  double largest_indentation_ = 0.0;
+  State state_;
+};
+
+/// Energy that velocity-dependent forces dissipate, and what changing loads leave of their
+/// potential, integrated along the trajectory: independently of the energies, whose balance they
+/// close (docs/theory.md, "Accounts").
+class LossQuadrature {
+ public:
+  /// `tolerance` of a step's integral, J.
+  explicit LossQuadrature(double tolerance) : tolerance_(tolerance) {}
+
+  /// Losses from the start of the step to a time t in it or at its end, where the state is y.
+  Losses over(const ObservedStep& step, double t, const State& y, StruckBeam& beam);
+
+ private:
+  struct Node {
+    double time;
+    State y;
+    std::vector<double> acceleration;
+  };
+  static void read_acceleration(Node& node, StruckBeam& beam);
+  Losses halved(const Node& a, const Node& b, const ObservedStep& step, StruckBeam& beam,
+                int depth);
+  // Losses between two nodes, by quintics or by cubics.
+  Losses between(const Node& a, const Node& b, bool quintic, StruckBeam& beam);
+
+  double tolerance_;
+  bool beam_by_quadrature_ = false;
+  State state_;  // between nodes
+  std::vector<double> squares_;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,219 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "simulate/settings/methods.h"
+#include "study/parallel.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/study/judgement/judgement.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double sizes[] = {0.85, 0.7};  // of the meshes beside, over that of the case
+// Used where those are refused, for strikes too close to an end for a coarser mesh.
+constexpr double finer_sizes[] = {1.2, 1.45};
+// A far mesh shows errors that neighbouring meshes share, but it lacks some of their sub-impacts.
+constexpr double far_size = 0.5;
+constexpr double most_gain = 2.0;  // of differences
+constexpr double looser = 10.0;    // rtol, for a mesh of 0.7 and in time alone
+constexpr double loosest = 1e-1;
+constexpr double gain_of_tolerance = 1.0 / 3.0;  // a ninth, and room for errors that fall unevenly
+constexpr double shorter = 0.7;                  // step
+
+// Output of a run beside: no rows, and extremes at the instants of the run itself.
+OutputOptions output_beside(const Case& input) {
+  OutputOptions output = input.output;
+  const bool has_shapes = output.shape_interval(input.end_time) > 0.0;
+  const double instants = output.extremes_interval(input.end_time);
+  output.keep_no_rows();
+  output.shapes = has_shapes ? instants : 0.0;
+  return output;
+}
+
+bool has_fixed_step(const Case& input) {
+  return descriptor_of(input.solver.method).has_fixed_steps() || input.solver.step;
+}
+
+std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
+  try {
+    const std::optional<RefinedRun> other = on_other_mesh(input, size);
+    if (!other || (mesh_count(other->input) < mesh_count(input)) != (size < 1.0)) {
+      return std::nullopt;
+    }
+    CaseBeside beside{other->input, "mesh and time", other->description};
+    const double ratio = static_cast<double>(mesh_count(input)) / mesh_count(beside.input);
+    // The difference of runs on nearly equal meshes would be taken many times. At the order 1 a
+    // part of the difference is chance.
+    const double order = std::max(mesh_order(input).value_or(2), 2);
+    beside.gain = std::min(most_gain, 1.0 / std::abs(std::pow(ratio, order) - 1.0));
+    beside.input.output = output_beside(input);
+    // For a run in natural modes only the case can be refused, and resolving it would take most of
+    // the time of a short run.
+    if (beside.input.solver.method == Method::exponential) {
+      check(beside.input);
+    } else {
+      resolve(beside.input);
+    }
+    return beside;
+  } catch (const InvalidCase&) {  // of the other mesh
+    return std::nullopt;
+  }
+}
+
+// The case on another mesh, with a matching accuracy in time.
+std::optional<CaseBeside> in_mesh_and_time(double size, const Case& input) {
+  std::optional<CaseBeside> beside = on_mesh_of(size, input);
+  if (!beside) return std::nullopt;
+  SolverOptions& solver = beside->input.solver;
+  if (input.solver.step) {
+    solver.step = *input.solver.step / size;
+  } else if (!has_fixed_step(input)) {
+    const double exponent = std::log(size) / std::log(sizes[1]);
+    solver.rtol = std::min(std::pow(looser, exponent) * solver.rtol, loosest);
+  }
+  return beside;
+}
+
+// Central differences on twice as many cells take less time than other methods on these.
+std::optional<CaseBeside> on_finer_cells(const Case& input) {
+  const bool is_cheaper =
+      input.model.mesh == MeshKind::cells && input.solver.method != Method::central_difference;
+  if (!is_cheaper) return std::nullopt;
+  Case by_differences = input;
+  by_differences.solver = {};
+  by_differences.solver.method = Method::central_difference;
+  return on_mesh_of(2.0, by_differences);
+}
+
+// Adds the end states of the runs beside to that of the run, if all have one.
+void keep_states(const std::vector<CaseBeside>& cases,
+                 const std::vector<std::optional<Result>>& others, Result& run) {
+  if (!run.end_state) return;
+  auto state = std::make_shared<RunState>(*run.end_state);
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    if (!others[k] || !others[k]->end_state) return;
+    state->beside.emplace_back(cases[k].description, others[k]->end_state);
+  }
+  run.end_state = std::move(state);
+}
+
+}  // namespace
+
+std::vector<CaseBeside> cases_beside_in_time(const Case& input) {
+  CaseBeside beside{input, "time", {}};
+  beside.input.output = output_beside(input);
+  SolverOptions& solver = beside.input.solver;
+  if (has_fixed_step(input)) {
+    solver.step = shorter * *resolve(input).settings().step;
+    beside.description = fmt::format("a step of {:.4g} us", 1e6 * *solver.step);
+    beside.gain = 1.0 / (1.0 - shorter * shorter);
+  } else {
+    solver.rtol = std::min(looser * solver.rtol, loosest);
+    beside.description = fmt::format("rtol = {:.3g}", solver.rtol);
+    beside.gain = gain_of_tolerance;
+  }
+  return {beside};
+}
+
+std::vector<CaseBeside> cases_beside(const Case& input) {
+  std::vector<CaseBeside> all;
+  const auto include = [&](double size) {
+    if (auto beside = in_mesh_and_time(size, input)) all.push_back(std::move(*beside));
+  };
+  std::ranges::for_each(sizes, include);
+  if (all.size() < std::size(sizes)) {
+    std::ranges::for_each(finer_sizes, include);
+  } else if (auto far = in_mesh_and_time(far_size, input)) {
+    far->of_existence = false;
+    all.push_back(std::move(*far));
+  }
+  if (!all.empty()) return all;
+  all = cases_beside_in_time(input);
+  if (all.empty()) return all;
+  // If no other mesh allows the strike, effects that the mesh does not show still count as
+  // uncertain.
+  if (mesh_order(input)) all.front().part = "mesh and time";
+  return all;
+}
+
+std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
+  std::vector<CaseBeside> all = cases_beside_in_time(input);
+  std::optional<CaseBeside> mesh = on_finer_cells(input);
+  if (!mesh) mesh = in_mesh_and_time(sizes[1], input);
+  if (mesh) {
+    mesh->part = "mesh";
+    mesh->of_rows = false;
+    all.push_back(std::move(*mesh));
+  }
+  return all;
+}
+
+std::vector<CaseBeside> cases_beside_by_part(const Case& input) {
+  std::vector<CaseBeside> all = cases_beside_in_time(input);
+  for (const double size : {sizes[0], sizes[1], far_size}) {
+    std::optional<CaseBeside> beside = on_mesh_of(size, input);
+    if (!beside) continue;
+    beside->part = "mesh";
+    beside->of_existence = size != far_size;
+    all.push_back(std::move(*beside));
+  }
+  const bool has_layers = descriptor_of(input.model.section).has_layers && !input.parts.section;
+  if (has_layers && may_yield(input)) {
+    CaseBeside exact{input, "layers", "the exact section"};
+    exact.input.output = output_beside(input);
+    exact.input.model.section = SectionKind::exact;
+    all.push_back(std::move(exact));
+  }
+  return all;
+}
+
+std::vector<RunBeside> simulate_beside(const Case& input, const std::vector<CaseBeside>& cases,
+                                       Jobs jobs, const Progress& progress, RowSink* rows,
+                                       Result& run) {
+  std::atomic<bool> stop = false, lacks_memory = false;
+  std::vector<std::optional<Result>> others(cases.size());
+  in_parallel(cases.size() + 1, std::max(jobs, 1u), [&](std::size_t k) {
+    if (k == 0) {
+      run = simulate(input, progress, nullptr, rows);
+      if (run.outcome.kind == OutcomeKind::stopped) stop = true;
+      return;
+    }
+    NoRows none;
+    try {
+      others[k - 1] = simulate(
+          cases[k - 1].input, [&](double) { return !stop; }, nullptr, &none);
+    } catch (const std::bad_alloc&) {
+      lacks_memory = true;
+    }
+  });
+  keep_states(cases, others, run);
+  if (stop) return {};
+  if (lacks_memory) {
+    run.warnings.push_back(
+        "the memory does not suffice for the run to compare with: errors are not known");
+    return {};
+  }
+  std::vector<RunBeside> beside;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    beside.push_back({cases[k], std::move(*others[k])});
+  }
+  return beside;
+}
+
+Result simulate_judged(const Case& input, const std::vector<CaseBeside>& cases, Jobs jobs,
+                       const Progress& progress, RowSink* rows) {
+  Result run;
+  const std::vector<RunBeside> beside = simulate_beside(input, cases, jobs, progress, rows, run);
+  judge(input, run, beside);
+  return run;
+}
+
+}  // namespace subimpact

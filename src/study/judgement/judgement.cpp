@@ -1,0 +1,262 @@
+#include "subimpact/study/judgement/judgement.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "numerics/units.h"
+#include "study/judgement/joined_contacts.h"
+#include "study/judgement/judge.h"
+#include "study/judgement/mesh_resolution.h"
+#include "study/judgement/totals.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+// Multiplies the errors of existence after an uncertain sub-impact of the same sub-zone.
+constexpr double after_uncertain = 1.5;
+constexpr double loosest_rtol = 1e-2;
+constexpr double alike = 0.025;  // velocities at the end, over that of the strike
+
+void add_error(std::optional<double>& sum, double error) { sum = sum.value_or(0.0) + error; }
+
+// All errors of a sub-impact.
+constexpr std::optional<double> SubImpact::*errors[] = {&SubImpact::start_error,
+                                                        &SubImpact::end_error,
+                                                        &SubImpact::error_time,
+                                                        &SubImpact::error_mesh,
+                                                        &SubImpact::error_layers,
+                                                        &SubImpact::peak_force_error,
+                                                        &SubImpact::impulse_error,
+                                                        &SubImpact::max_indentation_error,
+                                                        &SubImpact::residual_indentation_error,
+                                                        &SubImpact::striker_velocity_error,
+                                                        &SubImpact::opening_error};
+
+std::optional<double>* part_of(SubImpact& s, const std::string& name) {
+  if (name == "time") return &s.error_time;
+  if (name == "mesh") return &s.error_mesh;
+  return name == "layers" ? &s.error_layers : nullptr;
+}
+
+void add_errors(const Judge& judge, std::size_t i, const std::string& part, SubImpact& s) {
+  const double start = judge.time_error(2 * i);
+  const double end = s.end ? judge.time_error(2 * i + 1) : 0.0;
+  add_error(s.start_error, start);
+  if (s.end) add_error(s.end_error, end);
+  if (auto* error = part_of(s, part)) add_error(*error, std::max(start, end));
+  add_error(s.peak_force_error,
+            judge.value_error(i, &SubImpact::peak_force, judge.least_force_error(i)));
+  add_error(s.impulse_error, judge.value_error(i, &SubImpact::impulse));
+  add_error(s.max_indentation_error,
+            judge.value_error(i, &SubImpact::max_indentation, judge.least_indentation_error(i)));
+  add_error(s.residual_indentation_error, judge.value_error(i, &SubImpact::residual_indentation));
+  add_error(s.striker_velocity_error, judge.value_error(i, &SubImpact::striker_velocity));
+  if (s.opening) add_error(s.opening_error, judge.opening_error(i));
+}
+
+std::string descriptions_of(std::span<const RunBeside> beside) {
+  std::vector<std::string> all;
+  for (const RunBeside& run : beside) all.push_back(run.of.description);
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+// The first of the sub-impacts and flights that are not certain.
+void set_first_unresolved(ErrorEstimate::Part& part, std::size_t i, const std::string& reason) {
+  if (part.first_unresolved) return;
+  part.first_unresolved = i;
+  part.reason = reason;
+}
+
+ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const RunBeside> beside,
+                               ErrorEstimate& estimate) {
+  const Judge judge(input, run, beside);
+  ErrorEstimate::Part part;
+  part.name = beside.front().of.part;
+  part.refined_run = descriptions_of(beside);
+  double strictness = 1.0;
+  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
+    SubImpact& s = run.sub_impacts[i];
+    const SubImpact& before = run.sub_impacts[i > 0 ? i - 1 : 0];
+    if (s.zone != before.zone || s.subzone != before.subzone) strictness = 1.0;
+    add_errors(judge, i, part.name, s);
+    if (const std::string doubt = judge.doubt_of(i, strictness); !doubt.empty()) {
+      strictness = after_uncertain;
+      s.certain = false;
+      if (s.doubt.empty()) s.doubt = doubt;
+      s.probability = std::min(*s.probability, judge.probability(i));
+      set_first_unresolved(part, i, doubt);
+    }
+    if (std::string flight = judge.doubt_of_flight(i); !flight.empty()) {
+      set_first_unresolved(part, i + 1, flight);
+      if (!estimate.doubt_after(i)) estimate.uncertain_flights.push_back({i, std::move(flight)});
+    }
+  }
+  if (run.closest_approach) add_error(run.closest_approach->error, judge.approach_error());
+  return part;
+}
+
+// Whether it is proven for this run and for those beside it that no contact follows the last one,
+// and they end alike.
+bool is_over(const Case& input, const Result& run, std::span<const RunBeside> beside,
+             const ErrorEstimate& estimate) {
+  const double tolerated = alike * input.scene.bodies().velocity_scale();
+  return run.no_more_contact && !estimate.doubt_after(run.sub_impacts.size() - 1) &&
+         !(run.sub_impacts.empty() && estimate.first_unresolved) &&
+         std::ranges::all_of(beside, [&](const RunBeside& other) {
+           const double difference = other.result.striker_velocity - run.striker_velocity;
+           return !other.of.of_existence ||
+                  (other.result.no_more_contact && std::abs(difference) < tolerated);
+         });
+}
+
+// Why the mesh does not show sub-impacts, whatever runs agree on: of the first that it does not.
+std::string first_mesh_doubt(const Case& input, const Result& run) {
+  std::string doubt = mesh_doubt(input, run.used);
+  for (std::size_t i = 0; i < run.sub_impacts.size() && doubt.empty(); ++i) {
+    doubt = unresolved_contact(input, run, i);
+    if (!doubt.empty()) doubt = fmt::format("sub-impact {}: {}", i + 1, doubt);
+  }
+  return doubt;
+}
+
+// What another mesh shows about a run whose rows do not include the error of the mesh.
+ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
+                                        const RunBeside& other) {
+  Result here;
+  here.outcome = run.outcome;
+  here.sub_impacts = run.sub_impacts;
+  here.near_misses = run.near_misses;
+  here.used = run.used;
+  for (SubImpact& s : here.sub_impacts) {
+    s.certain = true;
+    s.probability = 1.0;
+  }
+  ErrorEstimate none;
+  judge_part(input, here, {&other, 1}, none);
+  const auto n_same =
+      std::ranges::count(here.sub_impacts, std::optional(true), &SubImpact::certain);
+  const std::vector<SubImpact>& there = other.result.sub_impacts;
+  const Outcome& until = other.result.outcome;
+  ErrorEstimate::FinerMeshes found{
+      until.completed() ? other.of.description
+                        : fmt::format("{}, up to {:.6g} us where their run stopped,",
+                                      other.of.description, us * until.time),
+      there.size(), static_cast<std::size_t>(n_same), std::nullopt, first_mesh_doubt(input, run)};
+  if (!here.sub_impacts.empty() && !there.empty() && here.sub_impacts[0].end && there[0].end) {
+    const double change = *there[0].end - *here.sub_impacts[0].end;
+    const bool is_finer = mesh_count(other.of.input) > mesh_count(input);
+    found.change_of_first_end = is_finer ? change : -other.of.gain * change;
+  }
+  return found;
+}
+
+// Why the steps do not show sub-impacts: runs so loose share what they miss.
+std::string tolerance_doubt(const SolverOptions& solver) {
+  const bool has_tolerance = !solver.step && solver.method != Method::central_difference;
+  if (!has_tolerance || solver.rtol <= loosest_rtol) return {};
+  return fmt::format("solver.rtol = {:.2g} is too loose for runs to show each other's errors",
+                     solver.rtol);
+}
+
+// Sub-impacts that mesh or steps do not show, whatever runs agree on. `about_mesh`: runs beside
+// have other meshes.
+void doubt_unresolved(const Case& input, bool about_mesh, Result& run, ErrorEstimate& estimate) {
+  const std::string of_steps = tolerance_doubt(input.solver);
+  const std::string of_mesh = about_mesh ? mesh_doubt(input, run.used) : "";
+  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
+    SubImpact& s = run.sub_impacts[i];
+    std::string doubt = of_steps.empty() ? of_mesh : of_steps;
+    if (doubt.empty() && about_mesh) doubt = unresolved_contact(input, run, i);
+    if (doubt.empty()) continue;
+    s.certain = false;
+    s.doubt = doubt;
+    s.probability = std::min(*s.probability, 0.5);
+    for (ErrorEstimate::Part& part : estimate.parts) {
+      const bool is_meant = part.name.starts_with(of_steps.empty() ? "mesh" : "time");
+      if (!is_meant || part.first_unresolved.value_or(i + 1) <= i) continue;
+      part.first_unresolved = i;
+      part.reason = doubt;
+    }
+  }
+}
+
+void set_largest_errors(Result& run, ErrorEstimate& estimate) {
+  for (SubImpact& s : run.sub_impacts) {
+    if (!*s.certain) continue;
+    const auto include = [](double& largest, const std::optional<double>& error) {
+      largest = std::max(largest, error.value_or(0.0));
+    };
+    include(estimate.largest_error, s.start_error);
+    include(estimate.largest_error, s.end_error);
+    for (ErrorEstimate::Part& part : estimate.parts) {
+      const auto* error = part_of(s, part.name);
+      include(part.largest_error, error ? *error : s.start_error);
+      if (!error) include(part.largest_error, s.end_error);
+    }
+  }
+}
+
+void find_first_unresolved(const Result& run, std::span<const RunBeside> beside,
+                           ErrorEstimate& estimate) {
+  for (const auto& [of, other] : beside) {
+    if (!run.sub_impacts.empty() || other.sub_impacts.empty() || !of.of_existence) continue;
+    estimate.first_unresolved = 0;
+    estimate.reason = "there is one with " + of.description;
+  }
+  for (std::size_t i = 0; i < run.sub_impacts.size() && !estimate.first_unresolved; ++i) {
+    if (!*run.sub_impacts[i].certain) {
+      estimate.first_unresolved = i;
+      estimate.reason = run.sub_impacts[i].doubt;
+      return;
+    }
+    const ErrorEstimate::UncertainFlight* flight = estimate.doubt_after(i);
+    if (!flight) continue;
+    estimate.first_unresolved = i + 1;
+    estimate.reason = flight->reason;
+  }
+}
+
+}  // namespace
+
+void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
+  if (beside.empty()) return;
+  ErrorEstimate estimate;
+  estimate.refined_run = descriptions_of(beside);
+  for (SubImpact& s : run.sub_impacts) {
+    s.certain = true;
+    s.probability = 1.0;
+    for (const auto error : errors) (s.*error).reset();
+  }
+  if (run.closest_approach) run.closest_approach->error.reset();
+  for (auto first = beside.begin(); first != beside.end();) {
+    const auto last = std::find_if(first, beside.end(), [&](const RunBeside& other) {
+      return other.of.part != first->of.part;
+    });
+    if (!first->of.of_rows) {
+      estimate.finer_meshes = finer_meshes(input, run, *first);
+    } else {
+      estimate.parts.push_back(judge_part(input, run, {first, last}, estimate));
+      if (first->of.part == "mesh") set_mesh_limits(input, run, {first, last});
+    }
+    first = last;
+  }
+  for (SubImpact& s : run.sub_impacts) {
+    for (const auto error : errors) {
+      if (s.*error && !std::isfinite(*(s.*error))) (s.*error).reset();
+    }
+  }
+  doubt_unresolved(input, of_mesh(beside), run, estimate);
+  find_first_unresolved(run, beside, estimate);
+  run.contact_over = is_over(input, run, beside, estimate);
+  set_largest_errors(run, estimate);
+  set_totals(input, run, beside, estimate);
+  estimate.joined = judge_joined(input, run, beside);
+  run.error_estimate = std::move(estimate);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,201 @@
+#include "study/judgement/mesh_resolution.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/units.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double cells_per_wave = 8.0;
+constexpr double fewest_cells = 64.0;
+
+double cells_of_a_part(const Case& input) {
+  switch (input.model.mesh) {
+    case MeshKind::hermite:
+      return 2.0;
+    case MeshKind::spectral:
+      return 8.0;
+    default:
+      return 1.0;
+  }
+}
+
+double refinement_at_strike(const Case& input) {
+  return input.model.mesh == MeshKind::hermite ? input.model.strike_refinement : 1.0;
+}
+
+// sqrt(E I/(rho A)), m2/s.
+double wave_constant(const Beam& beam) {
+  return std::sqrt(beam.bending_stiffness() / beam.mass_per_length());
+}
+
+constexpr double largest_mass_ratio = 0.2;  // of a part of the mesh to the striker
+constexpr double fewest_cells_to_end = 6.0;
+constexpr double coarsest_beside = 0.7;  // over the parts of the first mesh
+// For elements, whose modes with a node at the strike have no closed form: 800 take a second.
+constexpr double most_cells_in_modes = 800.0;
+
+bool strikes_end(const Case& input) {
+  return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
+}
+
+// Distance of the strike from the nearest end, as a share of the length.
+double distance_to_end(const Case& input) {
+  return std::min(input.scene.striker.position, 1.0 - input.scene.striker.position);
+}
+
+double cells_over_length(const Case& input) {
+  return refinement_at_strike(input) * cells_of_a_part(input) * mesh_count(input);
+}
+
+// The effective mass (kg) of the beam itself at a blow: with rotary inertia and without shear an
+// impulse at once moves the stretch e^(-|x|/r) about it, less or more by the reflection from the
+// nearest end.
+double mass_met_without_mesh(const Case& input) {
+  const Beam& beam = input.scene.beam;
+  if (beam.shears() || beam.rotary_inertia() == 0.0) return 0.0;
+  const double r = beam.radius_of_gyration();
+  const double reflected = std::exp(-2.0 * distance_to_end(input) * beam.length / r);
+  const bool is_free = beam.ends[input.scene.striker.position < 0.5 ? 0 : 1] == EndSupport::free;
+  return 2.0 * beam.mass_per_length() * r / (is_free ? 1.0 + reflected : 1.0 - reflected);
+}
+
+// The mass (kg) that the mesh adds to it.
+double mass_of_mesh(const Case& input, const ResolvedSettings& used) {
+  const double share = used.contact_mass_share;
+  const double met = input.scene.bodies().moving_mass() * share / (1.0 - share);
+  return std::max(met - mass_met_without_mesh(input), 0.0);
+}
+
+double parts_towards_end(const Case& input) {
+  if (strikes_end(input)) return 0.0;
+  const double parts = fewest_cells_to_end / (refinement_at_strike(input) * cells_of_a_part(input));
+  return std::max(parts, 1.0) / (coarsest_beside * distance_to_end(input));
+}
+
+// Cells of the length dx add rho A (sqrt(dx^2 + 4 r^2) - 2 r); elements of either kind nearly so,
+// for which there is a margin.
+double parts_beside_striker(const Case& input, const ResolvedSettings& used) {
+  const double without_mesh = mass_met_without_mesh(input);
+  const auto size = [&](double mass) { return std::sqrt(mass * (mass + 2.0 * without_mesh)); };
+  return 1.05 * mesh_count(input) * size(mass_of_mesh(input, used)) /
+         size(largest_mass_ratio * input.scene.bodies().moving_mass());
+}
+
+// Distance (m) of the strike from the nearest free end; infinite without one.
+double distance_to_free_end(const Scene& scene) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const double at = scene.striker.position;
+  if (scene.beam.ends[0] == EndSupport::free) nearest = at * scene.beam.length;
+  if (scene.beam.ends[1] == EndSupport::free) {
+    nearest = std::min(nearest, (1.0 - at) * scene.beam.length);
+  }
+  return nearest;
+}
+
+// Parts of which half a one lies between the strike and the end, also on coarser meshes beside.
+double fewest_parts(const Case& input) {
+  return strikes_end(input) ? 0.0 : 0.5 / (coarsest_beside * distance_to_end(input));
+}
+
+// At least `parts`, although a symmetric mesh may have one part fewer than requested.
+int chosen_parts(const Case& input, double parts) {
+  const double most = std::max(1.0 * most_parts_at_first(input), std::ceil(fewest_parts(input)));
+  return static_cast<int>(std::min({std::ceil(parts) + 1.0, most + 1.0, 1e6}));
+}
+
+}  // namespace
+
+int most_parts_at_first(const Case& input) {
+  const bool in_cells = input.model.mesh == MeshKind::cells;
+  const double cells = in_cells ? most_cells_at_first : most_cells_in_modes;
+  return static_cast<int>(cells / cells_of_a_part(input));
+}
+
+bool takes_strike(const Case& input) { return fewest_parts(input) <= most_parts_at_first(input); }
+
+int parts_that_resolve(const Case& input, double contact_time, double most_cells) {
+  const Beam& beam = input.scene.beam;
+  const double wave = 2.0 * std::sqrt(M_PI * wave_constant(beam) * contact_time);
+  const double cells = std::clamp(cells_per_wave * beam.length / wave, fewest_cells, most_cells);
+  return static_cast<int>(cells / cells_of_a_part(input));
+}
+
+double shortest_contact_shown(const Case& input) {
+  if (!mesh_order(input)) return 0.0;
+  const Beam& beam = input.scene.beam;
+  return std::pow(beam.length / cells_over_length(input), 2) / wave_constant(beam);
+}
+
+std::string unresolved_contact(const Case& input, const Result& result, std::size_t i) {
+  if (!mesh_order(input)) return {};
+  const auto& all = result.sub_impacts;
+  const SubImpact& here = all[i];
+  if (!here.end) {
+    const double needed =
+        parts_that_resolve(input, result.used.contact_time) / refinement_at_strike(input);
+    if (mesh_count(input) >= needed) return {};
+    return fmt::format(
+        "it lasts to the end and {} parts of the mesh do not resolve the bending "
+        "waves of contacts as short as {:.2g} us as {:.0f} would",
+        mesh_count(input), us * result.used.contact_time, std::ceil(needed));
+  }
+  const double shortest = shortest_contact_shown(input);
+  const double contact = *here.end - here.start;
+  const double separation = i + 1 < all.size() ? all[i + 1].start - *here.end : shortest;
+  if (contact >= shortest && separation >= shortest) return {};
+  return fmt::format(
+      "{} {:.2g} us and the mesh shows none shorter than {:.2g} us: it does not "
+      "resolve the bending waves",
+      contact < shortest ? "its contact lasts" : "the separation after it lasts",
+      us * std::min(contact, separation), us * shortest);
+}
+
+int parts_that_take_strike(const Case& input) {
+  return std::max(mesh_count(input), chosen_parts(input, parts_towards_end(input)));
+}
+
+int parts_at_first(const Case& input, const ResolvedSettings& used) {
+  const double parts = std::max(parts_towards_end(input), parts_beside_striker(input, used));
+  return std::max(parts_that_resolve(input, used.contact_time, most_cells_at_first),
+                  chosen_parts(input, parts));
+}
+
+std::string mesh_doubt(const Case& input, const ResolvedSettings& used) {
+  if (!mesh_order(input)) return {};
+  const double mass_ratio = mass_of_mesh(input, used) / input.scene.bodies().moving_mass();
+  if (mass_ratio > largest_mass_ratio) {
+    return fmt::format("the part of the mesh under the striker is {:.2g} times as heavy as it",
+                       mass_ratio);
+  }
+  const double to_end = distance_to_end(input) * cells_over_length(input);
+  if (strikes_end(input) || to_end >= fewest_cells_to_end) return {};
+  return fmt::format("the strike is {:.2g} cells of the mesh from an end", to_end);
+}
+
+double free_end_error(const Case& input, double contact_time, double time) {
+  const Beam& beam = input.scene.beam;
+  const bool cells = input.model.mesh == MeshKind::cells && !input.parts.mesh &&
+                     input.model.spacing != CellSpacing::whole;
+  if (!cells || beam.theory != BeamTheory::rayleigh) return 0.0;
+  const auto n_free = std::count(beam.ends.begin(), beam.ends.end(), EndSupport::free);
+  if (n_free == 0) return 0.0;
+  const double speed = std::sqrt(beam.youngs_modulus / beam.density);
+  const double y2 = std::pow(beam.radius_of_gyration() / (speed * contact_time), 2);
+  const double x = 0.5 * (y2 + std::sqrt(y2 * (y2 + 4.0)));
+  const double stretch = 1.0 + x;
+  const double group_velocity = speed * std::sqrt(x) * (2.0 + x) / (stretch * std::sqrt(stretch));
+  const double round_trip = 2.0 * beam.length / group_velocity;
+  const double nearest = distance_to_free_end(input.scene);
+  const double reflected =
+      std::min(static_cast<double>(n_free) * time + round_trip, time * beam.length / nearest);
+  return reflected / input.model.segments * x / stretch;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,210 @@
+#include "study/judgement/totals.h"
+
+#include <map>
+
+#include "numerics/richardson.h"
+#include "study/judgement/judge.h"
+#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+// Safety factors, measured on random scenes: the tables of validation/truth/judgement.
+constexpr double usual_safety = 2.7;
+constexpr double safety_of_beam_velocity = 3.5;
+constexpr double safety_of_dissipated = 4.0;
+constexpr double safety_of_largest = 5.0;  // of the force and of the indentation
+constexpr double as_it_is = 0.0;  // safety factor of counts: the error is the difference itself
+// Relative error of the largest strain above which no error is stated: where a hinge forms, strains
+// grow without limit on finer meshes.
+constexpr double largest_error_of_strain = 0.5;
+
+double dissipated(const Energies& end) {
+  return end.bending_plastic + end.contact_plastic + end.beam_damping;
+}
+
+enum class From { every_run, shapes };
+
+// `v0`: velocity of the strike, m/s.
+struct Quantity {
+  const char* name;
+  double (*value)(const Result& run, double v0);
+  double safety = usual_safety;
+  From from = From::every_run;
+  double largest_share = HUGE_VAL;  // of an error in the value; none is stated beyond
+  // Set for an extreme along the beam: runs are compared at the instants that they share, and the
+  // error has a part due to the distance between instants.
+  SampledPeak FieldPeaks::*peak = nullptr;
+
+  std::optional<double> of(const Case& input, const Result& run) const {
+    if (from == From::shapes && run.envelope.empty()) return std::nullopt;
+    const double x = value(run, input.scene.bodies().velocity_scale());
+    return std::isnan(x) ? std::nullopt : std::optional(x);
+  }
+};
+
+using Run = const Result&;
+// clang-format off
+const Quantity quantities[] = {
+    {"zones", [](Run run, double) { return run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone; }, as_it_is},
+    {"striker_velocity_m_per_s", [](Run run, double) { return run.striker_velocity; }},
+    {"beam_mean_velocity_m_per_s", [](Run run, double) { return run.beam_mean_velocity; }, safety_of_beam_velocity},
+    {"restitution", [](Run run, double) { return run.restitution.value_or(NAN); }},
+    {"impulse_Ns", [](Run run, double) { return run.impulse(); }},
+    {"peak_force_N", [](Run run, double) { return run.max_force; }, safety_of_largest},
+    {"max_indentation_m", [](Run run, double) { return run.max_indentation; }, safety_of_largest},
+    {"max_displacement_m", [](Run run, double) { return run.peaks.displacement.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::displacement},
+    {"max_moment_Nm", [](Run run, double) { return run.peaks.moment.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::moment},
+    {"max_strain", [](Run run, double) { return run.peaks.strain.largest; }, usual_safety, From::shapes, largest_error_of_strain, &FieldPeaks::strain},
+    {"reaction_along_N", [](Run run, double) { return run.peaks.reaction_along.largest > 0.0 ? run.peaks.reaction_along.largest : NAN; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::reaction_along},
+    {"reaction_against_N", [](Run run, double) { return run.peaks.reaction_against.largest > 0.0 ? run.peaks.reaction_against.largest : NAN; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::reaction_against},
+    {"permanent_set_m", [](Run run, double) { return largest_magnitude(run.envelope, &EnvelopeRow::set_from_supports); }, usual_safety, From::shapes},
+    {"hinge_rotation_rad", [](Run run, double) { return largest_magnitude(run.plastic_zones, &PlasticZone::rotation); }, usual_safety, From::shapes},
+    {"striker_energy_share", [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
+    {"dissipated_J", [](Run run, double) { return dissipated(run.final_energies); }, safety_of_dissipated},
+};
+// clang-format on
+
+// Sums the errors of the parts, each the largest over its runs. `value`: of a run; none where the
+// run has no such thing.
+Total total_of(const Result& run, std::span<const RunBeside> beside, double safety,
+               const std::function<std::optional<double>(const Result&)>& value) {
+  Total total{value(run).value_or(0.0), {}};
+  std::map<std::string, double> parts;
+  for (const RunBeside& other : beside) {
+    const bool shows_errors_alone = other.of.of_rows && !other.of.of_existence;
+    if (safety == as_it_is && shows_errors_alone) continue;
+    const std::optional<double> there = value(other.result);
+    if (!there || !other.result.outcome.completed()) return total;
+    const auto part_of = [](const RunBeside& run_beside) { return run_beside.of.part; };
+    const bool alone = std::ranges::count(beside, other.of.part, part_of) == 1;
+    const double factor = safety * other.of.gain * (alone ? single_run_factor : 1.0);
+    double& error = parts[other.of.part];
+    error = std::max(error, (safety == as_it_is ? 1.0 : factor) * std::abs(total.value - *there));
+  }
+  total.error = 0.0;
+  for (const auto& [part, error] : parts) *total.error += error;
+  return total;
+}
+
+double end_of(const ZoneSummary& zone, const Result& run) {
+  return zone.end.value_or(run.outcome.time);
+}
+
+// The zone of another run that overlaps one of a run most; none if none does.
+std::optional<ZoneSummary> counterpart(const ZoneSummary& here, const Result& run,
+                                       const Result& other) {
+  std::optional<ZoneSummary> best;
+  const auto overlap = [&](const ZoneSummary& there) {
+    return std::min(end_of(there, other), end_of(here, run)) - std::max(there.start, here.start);
+  };
+  for (const ZoneSummary& there : summarise_zones(other.sub_impacts)) {
+    if (overlap(there) > (best ? overlap(*best) : 0.0)) best = there;
+  }
+  return best;
+}
+
+// The number of sub-impacts of a zone. Its error: how many of them, and of the flights after them,
+// are not certain; where there are any, or a run shows errors of totals alone, at least the
+// difference to each run beside from the zone's start to that of the next. 0 where all is certain.
+Total count_of(const ZoneSummary& zone, const Result& run, std::span<const RunBeside> beside,
+               const ErrorEstimate& estimate) {
+  const auto is_here = [&](const SubImpact& s) { return s.zone == zone.zone; };
+  const auto next = std::ranges::find(run.sub_impacts, zone.zone + 1, &SubImpact::zone);
+  const double from = zone.zone == 1 ? -HUGE_VAL : zone.start;
+  const double until = next == run.sub_impacts.end() ? HUGE_VAL : next->start;
+  const auto n_doubts =
+      std::ranges::count_if(run.sub_impacts,
+                            [&](const SubImpact& s) { return is_here(s) && !*s.certain; }) +
+      std::ranges::count_if(estimate.uncertain_flights, [&](const auto& flight) {
+        return is_here(run.sub_impacts[flight.after]);
+      });
+  Total count{static_cast<double>(zone.n_sub_impacts), static_cast<double>(n_doubts)};
+  for (const auto& [of, other] : beside) {
+    if (!other.outcome.completed()) return {count.value, std::nullopt};
+    if (of.of_rows && (n_doubts == 0 || !of.of_existence)) continue;
+    const auto n_there = std::ranges::count_if(
+        other.sub_impacts, [&](const SubImpact& s) { return s.start >= from && s.start < until; });
+    count.error = std::max(*count.error, std::abs(count.value - static_cast<double>(n_there)));
+  }
+  return count;
+}
+
+}  // namespace
+
+Total sum_of_counts(const std::vector<ZoneTotals>& zones) {
+  Total sum{0.0, 0.0};
+  for (const auto& [start, end, impulse, count] : zones) {
+    sum.value += count.value;
+    sum.error = sum.error && count.error ? std::optional(*sum.error + *count.error) : std::nullopt;
+  }
+  return sum;
+}
+
+void set_totals(const Case& input, const Result& run, std::span<const RunBeside> beside,
+                ErrorEstimate& estimate) {
+  for (const Quantity& quantity : quantities) {
+    if (!quantity.of(input, run)) continue;
+    Total total = total_of(run, beside, quantity.safety, [&](const Result& of) {
+      return quantity.peak != nullptr ? (of.peaks.*quantity.peak).shared : quantity.of(input, of);
+    });
+    total.value = *quantity.of(input, run);
+    if (quantity.peak != nullptr && total.error) {
+      *total.error += (run.peaks.*quantity.peak).sampling_error();
+    }
+    if (total.error && *total.error > quantity.largest_share * std::abs(total.value)) {
+      total.error.reset();
+    }
+    estimate.totals.push_back({quantity.name, total});
+  }
+  for (const ZoneSummary& zone : summarise_zones(run.sub_impacts)) {
+    const auto total = [&](auto value) {
+      return total_of(run, beside, usual_safety, [&](const Result& of) -> std::optional<double> {
+        if (&of == &run) return value(zone, of);
+        const std::optional<ZoneSummary> there = counterpart(zone, run, of);
+        return there ? std::optional<double>(value(*there, of)) : std::nullopt;
+      });
+    };
+    using Zone = const ZoneSummary&;
+    estimate.zones.push_back({total([](Zone z, Run) { return z.start; }), total(end_of),
+                              total([](Zone z, Run) { return z.impulse; }),
+                              count_of(zone, run, beside, estimate)});
+  }
+  Total count = sum_of_counts(estimate.zones);
+  if (run.sub_impacts.empty() && estimate.first_unresolved) count.error = 1.0;
+  estimate.totals.insert(estimate.totals.begin(), {"sub_impacts", count});
+}
+
+void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> beside) {
+  if (beside.size() < 3 || !mesh_order(input)) return;
+  constexpr double order_uncertainty = 0.35;  // of the ratio of differences for an order
+  const double order = *mesh_order(input), h = 1.0 / mesh_count(input);
+  const double middle_h = 1.0 / mesh_count(beside[1].of.input);
+  const double expected =
+      ratio_of_differences(1.0 / mesh_count(beside[2].of.input), middle_h, h, order);
+  const auto limit = [&](double coarse, double middle, double fine) -> std::optional<double> {
+    const double found = (coarse - middle) / (middle - fine);
+    if (!(std::abs(found / expected - 1.0) <= order_uncertainty)) return std::nullopt;
+    return richardson_limit(middle, fine, middle_h / h, order);
+  };
+  const Counterparts in_middle = counterparts(run.sub_impacts, beside[1].result.sub_impacts);
+  const Counterparts in_coarse = counterparts(run.sub_impacts, beside[2].result.sub_impacts);
+  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
+    SubImpact& here = run.sub_impacts[i];
+    const SubImpact* middle = in_middle.of[i];
+    const SubImpact* coarse = in_coarse.of[i];
+    if (!middle || !coarse) continue;
+    if (i > 0) here.start_mesh_limit = limit(coarse->start, middle->start, here.start);
+    if (here.end && middle->end && coarse->end) {
+      here.end_mesh_limit = limit(*coarse->end, *middle->end, *here.end);
+    }
+    if (!here.start_mesh_limit && !here.end_mesh_limit) continue;
+    const double of_start = std::abs(here.start_mesh_limit.value_or(here.start) - here.start);
+    const double of_end =
+        here.end ? std::abs(here.end_mesh_limit.value_or(*here.end) - *here.end) : 0.0;
+    here.mesh_limit_error = std::max({here.error_time.value_or(0.0), of_start, of_end});
+  }
+}
+
+}  // namespace subimpact

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "subimpact/study/judgement/judgement.h"
+
+namespace subimpact {
+
+/// The largest magnitude that `value`, a member or a function of a row, has in a list.
+template <class Row, class Value>
+double largest_magnitude(const std::vector<Row>& rows, Value value) {
+  double largest = 0.0;
+  for (const Row& row : rows) largest = std::max(largest, std::abs(std::invoke(value, row)));
+  return largest;
+}
+
+/// Sets the totals of an error estimate: numbers of the run as a whole, each with the largest of
+/// 2.7 gain |difference| over the runs beside it, summed over the parts (mean velocity of the beam:
+/// 3.5, dissipated energy: 4, largest force and indentation: 5; 1.5 times more for a part of one
+/// run). The error of a number of sub-impacts is that of sub-impacts and flights that are not
+/// certain, and where there are any at least the difference to a run beside; that of the run is the
+/// sum over its zones.
+void set_totals(const Case& input, const Result& run, std::span<const RunBeside> beside,
+                ErrorEstimate& estimate);
+
+/// The number of sub-impacts of a run, and its error, from those of its zones.
+Total sum_of_counts(const std::vector<ZoneTotals>& zones);
+
+/// Sets starts and ends of sub-impacts in the limit of fine meshes, where those of the run and of
+/// the second and third run beside it, on coarser and coarser meshes, converge at the order of the
+/// mesh.
+void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> beside);
+
+}  // namespace subimpact

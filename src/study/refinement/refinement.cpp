@@ -1,0 +1,104 @@
+#include "study/refinement/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "simulate/settings/methods.h"
+#include "study/judgement/mesh_resolution.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double first_tolerance = 1e-6;
+constexpr double first_tolerance_in_modes = 1e-8;
+constexpr double tightest_tolerance = 1e-12;
+constexpr double digits_per_doubling = 1.0;
+constexpr double least_step_ratio = 1.4;  // of a step that the mesh limits, per doubling
+
+Case with_count(const Case& input, double count) {
+  const std::optional<RefinedRun> sized = on_other_mesh(input, count / mesh_count(input));
+  Case other = input;
+  if (sized) other.model = sized->input.model;
+  return other;
+}
+
+bool is_fixed_step(const Case& input) {
+  return descriptor_of(input.solver.method).has_fixed_steps();
+}
+
+double step_by_default(Case input) {
+  input.solver.step.reset();
+  return *resolve(input).settings().step;
+}
+
+}  // namespace
+
+Refinement::Refinement(const Case& input, const OpenChoices& open) : first_(input), open_(open) {
+  order_ = mesh_order(input).value_or(1);
+  const bool chooses = open_.size && mesh_order(input);
+  if (chooses) first_ = with_count(input, parts_that_take_strike(input));
+  const ResolvedSettings used = resolve(first_).settings();
+  contact_time_ = used.contact_time;
+  if (chooses) choose_count(used);
+  if (!open_.tolerance) return;
+  if (!is_fixed_step(input)) {
+    const bool modes = input.solver.method == Method::exponential;
+    first_.solver.rtol = modes ? first_tolerance_in_modes : first_tolerance;
+    return;
+  }
+  const double step = step_by_default(first_);
+  if (step < least_step_ratio * step_by_default(with_count(first_, 2.0 * mesh_count(first_)))) {
+    first_step_ = step;
+  }
+}
+
+// A striker between two cells meets up to twice the mass of one that meets a cell's middle, which
+// may be one or the other on the mesh of `used`.
+void Refinement::choose_count(const ResolvedSettings& used) {
+  const int waves = parts_that_resolve(first_, used.contact_time, most_cells_at_first);
+  const int parts = parts_at_first(first_, used);
+  const int twice = std::min(2 * parts, most_parts_at_first(first_));
+  first_ = with_count(first_, parts);
+  if (parts == waves || mesh_doubt(first_, resolve(first_).settings()).empty()) return;
+  first_ = with_count(first_, twice);
+}
+
+std::optional<Case> Refinement::finer(const Case& from, double ratio) const {
+  std::optional<Case> next = resized(from, ratio);
+  if (next && mesh_count(*next) <= mesh_count(from)) next.reset();
+  return next;
+}
+
+std::optional<Case> Refinement::resized(const Case& from, double ratio) const {
+  Case next = with_count(from, ratio * mesh_count(from));
+  const int count = mesh_count(next);
+  const CaseKey& key = *find_case_key(size_key());
+  if (key.limits.maximum && count > *key.limits.maximum) return std::nullopt;
+  const double size = static_cast<double>(count) / mesh_count(first_);
+  if (open_.tolerance && !is_fixed_step(next)) {
+    next.solver.rtol =
+        std::max(tightest_tolerance,
+                 first_.solver.rtol * std::pow(10.0, -digits_per_doubling * std::log2(size)));
+  } else if (first_step_) {
+    const double step = *first_step_ / size;
+    next.solver.step.reset();
+    if (step < step_by_default(next)) next.solver.step = step;
+  }
+  return next;
+}
+
+const char* Refinement::size_key() const {
+  const auto& refinement = descriptor_of(first_.model.mesh).refinement;
+  return refinement && !first_.parts.mesh ? refinement->key : "model.mesh";
+}
+
+const char* Refinement::fixed_key() const {
+  if (!open_.size || !mesh_order(first_)) return size_key();
+  return nullptr;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,376 @@
+#include "subimpact/study/refinement/within.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "simulate/settings/methods.h"
+#include "study/judgement/mesh_resolution.h"
+#include "study/method_choice.h"
+#include "study/refinement/refinement.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double tolerance_of_rigid_bodies = 1e-10;
+constexpr const char* kinks_bound_the_error =
+    "sections yield, so that kinks, not the order of a method, bound the error";
+
+// Why elements, and mostly natural modes, suit a beam of which no section yields.
+std::string elastic_reason(const Case& chosen) {
+  if (chosen.solver.method != Method::exponential) return "the beam bends elastically";
+  return may_yield(chosen) ? "no section yields, so that free flight is exact in natural modes; "
+                             "contact, in which one might, is integrated by nystrom"
+                           : "the beam bends elastically, so that natural modes are exact in time";
+}
+
+// Meshes finer by less than this are not worth a run; a larger step than the usual one would rely
+// on errors of too coarse a mesh.
+constexpr double least_refinement = 1.25;
+constexpr double usual_refinement = 2.0;
+constexpr double largest_refinement = 4.0;  // while less than half of the sub-impacts are certain
+// Factor on the refinement that follows from the stated error.
+constexpr double margin = 1.1;
+// A step that moves every mode in closed form takes as long as these evaluations.
+constexpr double evaluations_per_step_in_modes = 3.0;
+
+double default_tolerance(const Refinement& refinement) {
+  return default_share_of_contact * refinement.contact_time();
+}
+
+double largest_time_error(const SubImpact& s) {
+  return std::max(s.start_error.value_or(HUGE_VAL), s.end ? s.end_error.value_or(HUGE_VAL) : 0.0);
+}
+
+struct Level {
+  Case input;
+  Result result;
+  std::vector<RunBeside> beside;
+};
+
+class Search {
+ public:
+  Search(const Case& input, const OpenChoices& open, const WithinOptions& options)
+      : input_(input), open_(open), options_(options) {
+    options_.make = maker_of(options);
+    choose(may_yield(input));
+    const std::optional<double>& tolerance = input.accuracy.event_times;
+    tolerance_ = tolerance.value_or(default_tolerance(*refinement_));
+    work_limit_ = tolerance ? input.accuracy.work_limit : default_work_limit;
+  }
+
+  WithinRun run() {
+    std::optional<Case> next = refinement_->first();
+    while (next) {
+      Level level = level_of(*next, is_last(*next));
+      if (level.result.outcome.kind == OutcomeKind::stopped) return ended_early(std::move(level));
+      if (!level.result.outcome.completed() && best_) {
+        obstacle_ = "the run on the next mesh failed (" + level.result.outcome.message + ")";
+        break;
+      }
+      best_ = std::move(level);
+      if (change_model()) {
+        next = refinement_->first();
+        continue;
+      }
+      if (!best_->result.outcome.completed() || is_met()) break;
+      next = finer_case();
+    }
+    if (!has_rows_) run_again();
+    WithinRun found{std::move(best_->input), std::move(best_->result)};
+    describe(found);
+    return found;
+  }
+
+ private:
+  void choose(bool yields) {
+    yields_ = yields;
+    model_ = choose_model(input_, open_, yields);
+    refinement_.emplace(model_.input, open_);
+  }
+
+  // `keeps_rows`: whether no level after this one is to be expected. Where no section yields, which
+  // makes extremes along the beam cheap, the runs beside take them in any case: the level may be
+  // the last.
+  Level level_of(const Case& input, bool keeps_rows) {
+    if (options_.announce) {
+      options_.announce(mesh_words(input) + ", " + descriptor_of(input.solver.method).name);
+    }
+    Level level{input, {}, {}};
+    if (!keeps_rows) level.input.output.keep_no_rows();
+    has_rows_ = keeps_rows;
+    options_.make(level.input, cases_beside(yields_ ? level.input : input), rows_if(keeps_rows),
+                  level.result, level.beside);
+    level.input.output = input.output;
+    work_ += counted_work(level.result);
+    if (options_.finished) options_.finished(level.input, level.result);
+    for (const RunBeside& other : level.beside) {
+      work_ += counted_work(other.result);
+      if (options_.finished) options_.finished(other.of.input, other.result);
+    }
+    return level;
+  }
+
+  RowSink* rows_if(bool keeps_rows) const {
+    return keeps_rows && options_.rows ? options_.rows() : nullptr;
+  }
+
+  // The best run once more, for its rows and fields; the runs beside it too if they lack extremes.
+  void run_again() {
+    if (yields_) {
+      Level again = level_of(best_->input, true);
+      if (again.result.outcome.kind != OutcomeKind::stopped) best_ = std::move(again);
+      return;
+    }
+    Result again;
+    options_.make(best_->input, {}, rows_if(true), again, best_->beside);
+    if (again.outcome.kind == OutcomeKind::stopped) return;
+    if (again.end_state && best_->result.end_state) {
+      auto end = std::make_shared<RunState>(*again.end_state);
+      end->beside = best_->result.end_state->beside;
+      again.end_state = std::move(end);
+    }
+    best_->result = std::move(again);
+    if (options_.finished) options_.finished(best_->input, best_->result);
+  }
+
+  // The result after an interruption: the last level that ended, else the current one.
+  WithinRun ended_early(Level level) {
+    if (!best_) return {level.input, std::move(level.result)};
+    obstacle_ = "the search was stopped";
+    WithinRun found{std::move(best_->input), std::move(best_->result)};
+    describe(found);
+    found.result.outcome = {OutcomeKind::stopped,
+                            found.result.outcome.time,
+                            "stopped on request; these are the results of the last mesh that was "
+                            "finished, without a history",
+                            {}};
+    return found;
+  }
+
+  // Whether the beam turned out to bend elastically though it could yield, or the other way round.
+  bool change_model() {
+    if (!may_change_model_ || !open_.mesh || !open_.method || !may_yield(input_)) return false;
+    const bool yielded = best_->result.n_yielded_sections > 0;
+    if (yielded == yields_ || !best_->result.outcome.completed()) return false;
+    may_change_model_ = yields_;  // back at most once
+    choose(yielded);
+    best_.reset();
+    return true;
+  }
+
+  double largest_error() const {
+    return best_->result.error_estimate ? best_->result.error_estimate->largest_error : HUGE_VAL;
+  }
+  bool is_met() const { return best_->result.all_certain() && largest_error() <= tolerance_; }
+
+  // Work of a level on a mesh finer by `ratio` than the best one, with the runs beside it.
+  double work_of_next(double ratio) const {
+    double growth = usual_growth;
+    if (!best_->beside.empty()) {
+      const Level& level = *best_;
+      const RunBeside& other = level.beside.back();
+      const double sizes =
+          static_cast<double>(mesh_count(level.input)) / mesh_count(other.of.input);
+      if (sizes > 1.0) {
+        growth =
+            std::log(counted_work(level.result) / counted_work(other.result)) / std::log(sizes);
+      }
+    }
+    return work_with_others * counted_work(best_->result) *
+           std::pow(ratio, std::clamp(growth, 1.0, 4.0));
+  }
+
+  // Whether no level is affordable after this one, or none is to be expected.
+  bool is_last(const Case& next) const {
+    if (refinement_->fixed_key()) return true;
+    if (!best_) return false;
+    const double ratio = static_cast<double>(mesh_count(next)) / mesh_count(best_->input);
+    const double after = work_ + work_of_next(ratio) + work_of_next(least_refinement * ratio);
+    if (after > work_limit_) return true;
+    const double falls = std::pow(ratio, refinement_->order());
+    return best_->result.all_certain() && largest_error() / falls <= tolerance_;
+  }
+
+  // The refinement that the largest error requires; the usual one, or a larger one, while
+  // sub-impacts are uncertain.
+  double ratio_wanted() const {
+    const Result& best = best_->result;
+    if (2 * best.n_certain().value_or(0) < best.sub_impacts.size()) return largest_refinement;
+    if (!best.all_certain()) return usual_refinement;
+    const double asked =
+        margin * std::pow(largest_error() / tolerance_, 1.0 / refinement_->order());
+    return std::clamp(asked, least_refinement, usual_refinement);
+  }
+
+  std::optional<Case> finer_case() {
+    if (const char* key = refinement_->fixed_key()) {
+      return refuse(key, fmt::format("{} is fixed by the case", key));
+    }
+    double ratio = ratio_wanted();
+    while (work_ + work_of_next(ratio) > work_limit_ && ratio > least_refinement) {
+      ratio = std::max(least_refinement, 0.9 * ratio);
+    }
+    const double work = work_ + work_of_next(ratio);
+    if (work > work_limit_) {
+      return refuse("accuracy.work_limit",
+                    fmt::format("a finer mesh would take the counted work from {:.1e} to {:.1e}, "
+                                "above the limit of {:.1e}",
+                                work_, work, work_limit_));
+    }
+    std::optional<Case> finer = refinement_->finer(best_->input, ratio);
+    if (!finer) return refuse(refinement_->size_key(), "the mesh is the finest that is allowed");
+    try {
+      check_memory(resolve(*finer).settings());
+    } catch (const InvalidCase& error) {
+      return refuse(error.key, fmt::format("on a finer mesh {} {}", error.key, error.what()));
+    }
+    return finer;
+  }
+
+  std::nullopt_t refuse(const std::string& key, const std::string& obstacle) {
+    key_ = key;
+    obstacle_ = obstacle;
+    return std::nullopt;
+  }
+
+  void describe(WithinRun& run) const {
+    Result& result = run.result;
+    result.choice = model_.reason + (obstacle_.empty() ? "" : "; " + obstacle_);
+    if (!input_.accuracy.event_times) return;
+    ToleranceOutcome& outcome = result.tolerance.emplace();
+    outcome.asked = tolerance_;
+    outcome.horizon = result.outcome.time;
+    outcome.reached = result.error_estimate ? result.error_estimate->largest_error : HUGE_VAL;
+    outcome.met =
+        result.outcome.completed() && result.all_certain() && outcome.reached <= tolerance_;
+    if (outcome.met) return;
+    const auto beyond = std::ranges::find_if(result.sub_impacts, [&](const SubImpact& s) {
+      return s.certain.value_or(false) && largest_time_error(s) > tolerance_;
+    });
+    std::string reason = result.error_estimate ? result.error_estimate->reason
+                                               : "no coarser run is possible that shows the error";
+    if (beyond != result.sub_impacts.end()) {
+      outcome.horizon = beyond->start;
+      reason =
+          fmt::format("the error of sub-impact {} is {:.2g} us",
+                      beyond - result.sub_impacts.begin() + 1, 1e6 * largest_time_error(*beyond));
+    } else if (result.error_estimate && result.error_estimate->first_unresolved) {
+      reason =
+          fmt::format("sub-impact {}: {}", *result.error_estimate->first_unresolved + 1, reason);
+    }
+    outcome.reason = result.outcome.completed() ? reason : result.outcome.message;
+    if (!obstacle_.empty()) outcome.reason += "; " + obstacle_;
+    outcome.key = key_;
+  }
+
+  Case input_;
+  OpenChoices open_;
+  WithinOptions options_;
+  double tolerance_ = 0.0;  // s
+  double work_limit_ = 0.0;
+  bool yields_ = false;
+  bool may_change_model_ = true;
+  bool has_rows_ = false;  // the last run
+  ChosenModel model_;
+  std::optional<Refinement> refinement_;
+  std::optional<Level> best_;  // the last one that ended
+  double work_ = 0.0;          // of all runs so far
+  std::string obstacle_;       // why no finer mesh is run
+  std::string key_;            // that prevents meeting the tolerance
+};
+
+}  // namespace
+
+JudgedRunMaker maker_of(const WithinOptions& options) {
+  if (options.make) return options.make;
+  return [jobs = options.jobs, progress = options.progress](
+             const Case& input, const std::vector<CaseBeside>& cases, RowSink* rows, Result& run,
+             std::vector<RunBeside>& beside) {
+    std::ranges::move(simulate_beside(input, cases, jobs, progress, rows, run),
+                      std::back_inserter(beside));
+    judge(input, run, beside);
+  };
+}
+
+ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields) {
+  ChosenModel chosen{input, {}};
+  ModelOptions& model = chosen.input.model;
+  SolverOptions& solver = chosen.input.solver;
+  const bool own_mesh = input.parts.mesh != nullptr;
+  const bool bends = own_mesh || descriptor_of(model.mesh).bends;
+  if (!bends) {
+    if (open.method) solver.method = method_for_damping(input, Method::nystrom);
+    if (open.tolerance) solver.rtol = tolerance_of_rigid_bodies;
+    chosen.reason = "a rigid body has no mesh to refine";
+    return chosen;
+  }
+  const bool central = !open.method && solver.method == Method::central_difference;
+  const bool shears = input.scene.beam.shears();
+  if (open.mesh && !own_mesh) {
+    const bool prefers_cells = yields || central;
+    model.mesh = prefers_cells ? default_mesh(input)
+                 : shears      ? MeshKind::spectral
+                               : MeshKind::hermite;
+    if (!takes_strike(chosen.input)) model.mesh = default_mesh(input);
+    if (model.mesh == MeshKind::cells && !shears && input.accuracy.event_times) {
+      // Otherwise the error of free ends, of first order, falls last.
+      model.spacing = CellSpacing::whole;
+    }
+  }
+  if (open.method && !yields) solver.method = Method::exponential;
+  if (open.method && yields) {
+    const bool cells = !own_mesh && model.mesh == MeshKind::cells;
+    solver.method = cells ? Method::central_difference : Method::nystrom;
+  }
+  if (open.method) solver.method = method_for_damping(input, solver.method);
+  const bool fixed = !open.method && !open.mesh;
+  chosen.reason = fixed    ? "the case fixes mesh and method"
+                  : yields ? kinks_bound_the_error
+                           : elastic_reason(chosen.input);
+  return chosen;
+}
+
+double counted_work(const Result& result) {
+  const Work& work = result.work;
+  auto evaluations = static_cast<double>(work.right_hand_sides);
+  if (result.given.solver.method == Method::exponential) {
+    evaluations +=
+        evaluations_per_step_in_modes * static_cast<double>(work.steps + work.rejected_steps);
+  }
+  return evaluations * static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1)) +
+         result.used.decomposition;
+}
+
+ChosenModel first_choice(const Case& input, const OpenChoices& open) {
+  ChosenModel chosen = choose_model(input, open, may_yield(input));
+  const Refinement refinement(chosen.input, open);
+  chosen.input = refinement.first();
+  const std::optional<double>& tolerance = input.accuracy.event_times;
+  if (const char* key = refinement.fixed_key()) {
+    chosen.reason += fmt::format("; {} is fixed by the case", key);
+    return chosen;
+  }
+  chosen.reason += fmt::format(
+      "; refined until every event time is within {:.3g} us{} of the limit of fine meshes, or the "
+      "counted work reaches {:.1e}",
+      1e6 * tolerance.value_or(default_tolerance(refinement)), tolerance ? "" : " (the default)",
+      tolerance ? input.accuracy.work_limit : default_work_limit);
+  if (may_yield(input) && open.mesh && open.method) {
+    chosen.reason += "; elements in natural modes instead if no section yields";
+  }
+  return chosen;
+}
+
+WithinRun simulate_within(const Case& input, const OpenChoices& open,
+                          const WithinOptions& options) {
+  return Search(input, open, options).run();
+}
+
+}  // namespace subimpact

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ode/second_order_ode.h"
+#include "subimpact/model/mesh/beam_mesh.h"
+
+namespace subimpact {
+
+/// Mass and tangent stiffness of a struck beam as sparse matrices of one pattern, the striker being
+/// the last unknown:
+///
+///     Mass = [beam's mass, 0; 0, m],   K = [B^T W diag(tangent) B, 0; 0, 0] + dF/dlambda g g^T,
+///
+/// of a stop with 1 in place of m and without the striker's row of g g^T, so that it stays at rest;
+/// with g = [-S; 1] the gradient of the indentation. The pattern is the beam's band, a row and a
+/// column that couple the striker to the unknowns under it, and the striker's diagonal entry.
+class BeamJacobian {
+ public:
+  BeamJacobian(const BeamMesh& mesh, double striker_mass);
+
+  const SparsityPattern& pattern() const { return pattern_; }
+  void mass_entries(std::span<double> values) const;
+  /// `tangents` = dM/dkappa (N m2) of the sections; `contact_slope` = dF/dlambda (N/m).
+  void stiffness_entries(std::span<const double> tangents, double contact_slope,
+                         std::span<double> values);
+  /// Adds slope g g^T.
+  void add_contact(double slope, std::span<double> values) const;
+
+ private:
+  void copy_band(const BandedMatrix& band, std::span<double> values) const;
+
+  const BeamMesh& mesh_;
+  double striker_mass_;
+  std::size_t n_;  // unknowns of the beam
+  BandedMatrix bending_;
+  SparsityPattern pattern_;
+  struct ContactEntry {
+    std::size_t position;  // in the pattern
+    double coefficient;
+  };
+  std::vector<ContactEntry> contact_entries_;  // g g^T
+};
+
+}  // namespace subimpact

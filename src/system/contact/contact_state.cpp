@@ -1,0 +1,100 @@
+#include "system/contact/contact_state.h"
+
+#include <cassert>
+
+namespace subimpact {
+
+std::string_view to_string(EventKind kind) {
+  static constexpr std::string_view names[] = {
+      "contact_begins", "contact_yields", "contact_unloads", "contact_ends", "section_reverses"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::span<const EventFunction> ContactState::event_functions() const {
+  static constexpr EventFunction separated[] = {{EventKind::contact_begins}};
+  static constexpr EventFunction elastic[] = {{EventKind::contact_ends},
+                                              {EventKind::contact_yields}};
+  static constexpr EventFunction plastic[] = {{EventKind::contact_unloads}};
+  static constexpr EventFunction damped[] = {{EventKind::contact_ends},
+                                             {EventKind::contact_ends, EventVariable::rate}};
+  static constexpr EventFunction recovering[] = {{EventKind::contact_begins, EventVariable::rate},
+                                                 {EventKind::contact_ends}};
+  switch (branch_) {
+    case ContactBranch::separated:
+      if (recovering_) return recovering;
+      return separated;
+    case ContactBranch::elastic:
+      if (is_damped()) return damped;
+      return elastic;
+    case ContactBranch::plastic:
+      return plastic;
+  }
+  return {};
+}
+
+double ContactState::force(double indentation) const {
+  if (evaluation_ == Evaluation::switching) return law_->contact_force(history_, indentation);
+  return law_->branch_force(branch_, history_, indentation);
+}
+
+double ContactState::slope(double indentation) const {
+  const ContactBranch branch =
+      evaluation_ == Evaluation::switching ? law_->branch(history_, indentation) : branch_;
+  return law_->branch_slope(branch, history_, indentation);
+}
+
+ContactState::Energies ContactState::energies(double indentation) const {
+  const ContactHistory reached = loads() ? ContactLaw::commit(history_, indentation) : history_;
+  return {is_closed() || recovering_ ? law_->recoverable_energy(reached, indentation) : 0.0,
+          law_->dissipated_energy(reached)};
+}
+
+EventValue ContactState::event_function(const EventFunction& function, double indentation,
+                                        double rate) const {
+  if (function.kind == EventKind::contact_unloads) return {-rate, 0.0};
+  if (function.of_rate()) {
+    const double above = rate + 1.0 / damping_;
+    return {function.kind == EventKind::contact_ends ? -above : above, 0.0};
+  }
+  switch (function.kind) {
+    case EventKind::contact_begins:
+      return {indentation - residual_indentation(), rate};
+    case EventKind::contact_ends:
+      return {residual_indentation() - indentation, -rate};
+    case EventKind::contact_yields:
+      return {indentation - law_->yield_threshold(history_), rate};
+    case EventKind::contact_unloads:
+    case EventKind::section_reverses:
+      break;
+  }
+  assert(false && "an event of sections has no function of the indentation");
+  return {};
+}
+
+void ContactState::commit(double indentation) {
+  if (loads()) history_ = ContactLaw::commit(history_, indentation);
+}
+
+void ContactState::pass(const EventFunction& event, double indentation) {
+  recovering_ = event.kind == EventKind::contact_ends && event.of_rate();
+  switch (event.kind) {
+    case EventKind::contact_begins:
+      branch_ = law_->first_branch(history_);
+      break;
+    case EventKind::contact_yields:
+      branch_ = ContactBranch::plastic;
+      break;
+    case EventKind::contact_unloads:
+      history_ = ContactLaw::commit(history_, indentation);
+      branch_ = ContactBranch::elastic;
+      break;
+    case EventKind::contact_ends:
+      branch_ = ContactBranch::separated;
+      break;
+    case EventKind::section_reverses:
+      assert(false && "sections pass their events in SectionField");
+      break;
+  }
+}
+
+}  // namespace subimpact

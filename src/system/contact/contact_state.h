@@ -1,0 +1,112 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "numerics/bracketed_root.h"
+#include "numerics/snapshot.h"
+#include "subimpact/model/contact/contact_law.h"
+#include "subimpact/system/events.h"
+
+namespace subimpact {
+
+/// Evaluation of laws with branches between two commits.
+enum class Evaluation {
+  smooth,    ///< the branch in force is continued beyond its range; its end is located as an event
+  switching  ///< the branch follows the motion, as in schemes that do not locate events
+};
+
+/// What an event function is a function of.
+enum class EventVariable {
+  indentation,
+  rate  ///< contact_unloads; a damped contact that begins or ends as its rate passes -1/chi
+};
+
+/// A condition under which the equations of motion change: a function of the state that is negative
+/// before and positive after its event.
+struct EventFunction {
+  EventKind kind;
+  EventVariable variable;
+
+  constexpr EventFunction(EventKind kind)
+      : EventFunction(kind, kind == EventKind::contact_unloads ? EventVariable::rate
+                                                               : EventVariable::indentation) {}
+  constexpr EventFunction(EventKind kind, EventVariable variable)
+      : kind(kind), variable(variable) {}
+  bool of_rate() const { return variable == EventVariable::rate; }
+  bool operator==(const EventFunction&) const = default;
+};
+
+/// The contact between striker and beam in one run: the law, the branch in force and the history.
+/// Force and event functions depend on the indentation lambda (m) and its rate (m/s) alone
+/// (docs/theory.md, "Events"; of a damped contact, for laws that never yield: "Contact").
+class ContactState {
+ public:
+  /// `damping`: chi, s/m.
+  explicit ContactState(std::shared_ptr<const ContactLaw> law, double damping = 0.0)
+      : law_(std::move(law)), damping_(damping) {}
+
+  bool is_damped() const { return damping_ > 0.0; }
+  /// Whether the striker has left a surface that is still indented, in damped contacts.
+  bool is_recovering() const { return recovering_; }
+  std::span<const EventFunction> event_functions() const;
+
+  const ContactLaw& law() const { return *law_; }
+  ContactBranch branch() const { return branch_; }
+  ContactHistory history() const { return history_; }
+  bool is_closed() const { return branch_ != ContactBranch::separated; }
+  double residual_indentation() const { return law_->residual_indentation(history_); }
+
+  double force(double indentation) const;                ///< F_0, N: F without damping
+  double slope(double indentation) const;                ///< dF_0/dlambda, N/m
+  double force(double indentation, double rate) const {  ///< F, N
+    return is_damped() ? (1.0 + damping_ * rate) * force(indentation) : force(indentation);
+  }
+  double slope(double indentation, double rate) const {  ///< dF/dlambda, N/m
+    return is_damped() ? (1.0 + damping_ * rate) * slope(indentation) : slope(indentation);
+  }
+  /// dF/dlambda', N s/m.
+  double rate_slope(double indentation) const { return damping_ * force(indentation); }
+  /// Dissipated by damping while the contact is closed, W.
+  double damping_power(double indentation, double rate) const {
+    return damping_ * rate * rate * force(indentation);
+  }
+
+  struct Energies {
+    double elastic, plastic;  ///< J
+  };
+  Energies energies(double indentation) const;
+
+  /// Value (m) and rate (m/s) of an event function. The rate of a value that is a rate of the
+  /// indentation (m/s) needs the acceleration and is left at 0.
+  EventValue event_function(const EventFunction& function, double indentation, double rate) const;
+
+  /// Whether the largest indentation grows with the present one.
+  bool loads() const {
+    return branch_ == ContactBranch::plastic || evaluation_ == Evaluation::switching;
+  }
+  void set_evaluation(Evaluation how) { evaluation_ = how; }
+  void set(ContactBranch branch, ContactHistory history) {
+    branch_ = branch;
+    history_ = history;
+  }
+  void exchange(Snapshot& snapshot) {
+    snapshot(recovering_, branch_, history_.max_indentation);
+    snapshot.require(branch_ <= ContactBranch::plastic);
+  }
+  void commit(double indentation);
+  void pass(const EventFunction& event, double indentation);
+  /// For schemes that do not locate events: the branch on which the indentation lies.
+  void follow(double indentation) { branch_ = law_->branch(history_, indentation); }
+
+ private:
+  std::shared_ptr<const ContactLaw> law_;
+  double damping_;
+  bool recovering_ = false;
+  Evaluation evaluation_ = Evaluation::smooth;
+  ContactBranch branch_ = ContactBranch::separated;
+  ContactHistory history_;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "numerics/lanes.h"
+#include "system/readings/accounts.h"
+#include "system/struck_beam.h"
+
+namespace subimpact {
+namespace {
+
+// Added restoring force as a share of the beam's own in its first mode; it also holds a free beam.
+constexpr double share_of_mass = 1e-2;
+constexpr int most_iterations = 120;
+constexpr int until_residual = 15;     // iterations until the residual is computed anew
+constexpr double least_power = 1e-22;  // of the residual forces, relative to those at first
+constexpr double rounding = 1e-9;      // of the curvatures between which a section stays elastic
+// What K loses to rounding as a matrix is regained from the forces of the sections.
+constexpr int n_refinements = 3;
+
+}  // namespace
+
+void StruckBeam::exchange(Snapshot& snapshot, State& y) {
+  const auto* modes = dynamic_cast<const ModalMesh*>(mesh_.get());
+  snapshot.begin("motion");
+  State of_mesh = y;
+  const auto half = [&](State& state, std::size_t k) {
+    return std::span(state).subspan(k * (n_ + 1), n_);
+  };
+  if (modes != nullptr && !snapshot.reads()) {
+    for (const std::size_t k : {0, 1}) modes->to_physical(half(y, k), half(of_mesh, k));
+  }
+  snapshot(of_mesh);
+  snapshot.require(of_mesh.size() == 2 * n_positions());
+  if (snapshot.reads()) y = of_mesh;
+  if (modes != nullptr && snapshot.reads()) {
+    for (const std::size_t k : {0, 1}) modes->to_modal(half(of_mesh, k), half(y, k));
+  }
+  snapshot.begin("contact");
+  snapshot(contact_);
+  snapshot.begin("losses");
+  snapshot(losses_.contact, losses_.beam, losses_.of_change, spent_.bending, spent_.contact,
+           potential_before_, loads_);
+  snapshot.begin("sections");
+  snapshot(sections_);
+  if (snapshot.reads()) read_motion(y, committed_);
+}
+
+void StruckBeam::begin_strike(State y, bool at_rest, double first_frequency) {
+  contact_.set(ContactBranch::separated, contact_.history());
+  if (at_rest) {
+    std::ranges::fill(y, 0.0);
+    come_to_rest(std::span(y).first(n_), first_frequency);
+  }
+  y[n_] = mesh_->struck_point()(beam_positions(y)) + contact_.residual_indentation();
+  while (indentation(y) < contact_.residual_indentation()) y[n_] = std::nextafter(y[n_], HUGE_VAL);
+  y.back() = striker_velocity_;
+  if (!(indentation_rate(y) > 0.0)) {
+    throw std::domain_error(
+        fmt::format("the struck point moves at {:.6g} m/s, which the striker does not reach at "
+                    "{:.6g} m/s",
+                    y.back() - indentation_rate(y), y.back()));
+  }
+  start_ = y;
+  losses_ = {};
+  spent_ = {};
+  const Energies before = Accounts(*this).energies(y);
+  spent_ = {before.bending_plastic, before.contact_plastic};
+}
+
+std::optional<std::vector<double>> StruckBeam::equilibrium() const {
+  std::vector<double> q(n_, 0.0), rest(n_), kappa(mesh_->n_sections());
+  if (!modal_stiffness_.empty()) {
+    if (std::ranges::count(modal_stiffness_, 0.0) > 0) return std::nullopt;
+    loads_.add_to(q, loads_.start());
+    for (std::size_t k = 0; k < n_; ++k) q[k] /= modal_stiffness_[k];
+    return q;
+  }
+  const double stiffness = sections_.stiffness();
+  BandedMatrix matrix(n_, mesh_->stiffness_bandwidth());
+  mesh_->add_stiffness(std::vector<double>(mesh_->n_sections(), stiffness), matrix);
+  const auto factor = matrix.cholesky_factor();
+  if (!factor) return std::nullopt;
+  for (int i = 0; i <= n_refinements; ++i) {
+    mesh_->curvatures(q, kappa);
+    for (double& k : kappa) k *= stiffness;
+    mesh_->bending_forces(kappa, rest);
+    mesh_->add_shear_forces(q, rest);
+    loads_.add_to(rest, loads_.start());
+    factor->solve_as_factor(rest);
+    for (std::size_t k = 0; k < n_; ++k) q[k] += rest[k];
+  }
+  return q;
+}
+
+// Forces that nothing but flow would change, f - A w: at rest they vanish, and the elastic energy
+// is the least. By conjugate gradients with the stiffness of the beam while nothing flows and some
+// mass, which holds a free beam where its mean displacement and rotation are zero.
+void StruckBeam::come_to_rest(std::span<double> w, double first_frequency) {
+  if (!sections_.can_yield()) return;
+  const Evaluation as_set = section_evaluation_;
+  section_evaluation_ = Evaluation::smooth;
+  sections_.stop_flow();
+  BandedMatrix near(n_, std::max(mesh_->mass().half_bandwidth(), mesh_->stiffness_bandwidth()));
+  std::ranges::fill(moments_, sections_.stiffness());
+  mesh_->add_stiffness(moments_, near);
+  near.add(share_of_mass * first_frequency * first_frequency, mesh_->mass());
+  const std::optional<BandedMatrix> factor = near.cholesky_factor();
+  std::vector<double> constant(n_), residual(n_), solved, direction(n_, 0.0), change(n_);
+  std::ranges::fill(w, 0.0);
+  bend(w, constant);
+  double before = 0.0, first = 0.0;
+  for (int k = 0; factor && k < most_iterations; ++k) {
+    const bool anew = k % until_residual == 0;
+    if (anew) bend(w, residual);
+    solved = residual;
+    factor->solve_as_factor(solved);
+    const double power = dot(residual.data(), solved.data(), n_);
+    first = std::max(first, power);
+    if (!(power > least_power * first)) break;
+    const double part = anew ? 0.0 : power / before;
+    before = power;
+    for (std::size_t i = 0; i < n_; ++i) direction[i] = solved[i] + part * direction[i];
+    bend(direction, change);
+    for (std::size_t i = 0; i < n_; ++i) change[i] -= constant[i];
+    const double length = -power / dot(direction.data(), change.data(), n_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      w[i] += length * direction[i];
+      residual[i] += length * change[i];
+    }
+  }
+  section_evaluation_ = as_set;
+  mesh_->curvatures(w, curvatures_);
+  const auto low = sections_.window_low(), high = sections_.window_high();
+  const auto holds = [&](std::size_t k) {
+    const double margin = rounding * (high[k] - low[k]);
+    return curvatures_[k] > low[k] - margin && curvatures_[k] < high[k] + margin;
+  };
+  std::size_t i = 0;
+  while (i < sections_.size() && holds(i)) ++i;
+  if (i == sections_.size()) return;
+  throw std::domain_error(
+      fmt::format("at rest the moment left at x = {:.6g} m would make the section yield again",
+                  mesh_->section_positions()[i]));
+}
+
+}  // namespace subimpact

@@ -1,0 +1,129 @@
+#include "system/readings/support_reactions.h"
+
+#include <numeric>
+
+#include "system/readings/beam_field.h"
+
+namespace subimpact {
+
+SupportReactions::SupportReactions(const StruckBeam& beam, double length, double struck_at)
+    : beam_(beam), length_(length), struck_at_(struck_at) {
+  const BeamMesh& mesh = beam.mesh();
+  const double end = mesh.symmetric() ? 0.0 : length;
+  const auto is_held = [&](double x) {
+    const auto support = support_at(mesh, x);
+    return support && *support != EndSupport::free;
+  };
+  held_ = {is_held(0.0), is_held(end)};
+  if (!exist()) return;
+  momentum_ = eliminated(mesh.momentum_functional());
+  add_damping(momentum_);
+  if (mesh.moment_functional().empty()) return;
+  moment_ = eliminated(mesh.moment_functional());
+  add_end_moment(1.0, 0.0, true, *moment_);
+  add_end_moment(-1.0, end, false, *moment_);
+  add_damping(*moment_);
+}
+
+SupportReactions::Eliminated SupportReactions::eliminated(
+    std::span<const double> functional) const {
+  const BeamMesh& mesh = beam_.mesh();
+  std::vector<double> g(functional.begin(), functional.end());
+  beam_.mass_solver().solve(g);
+  Eliminated result;
+  result.of_force = mesh.struck_point()(g);
+  if (!beam_.loads().is_empty()) result.of_loads = g;
+  if (in_modes()) {
+    for (std::size_t k = 0; k < g.size(); ++k) {
+      result.of_unknowns.push_back(-beam_.modal_stiffness()[k] * g[k]);
+    }
+    return result;
+  }
+  result.of_moments.resize(mesh.n_sections());
+  mesh.moment_weights(g, result.of_moments);
+  if (mesh.shears()) {
+    result.of_unknowns.resize(g.size());
+    mesh.add_shear_forces(g, result.of_unknowns);
+  }
+  return result;
+}
+
+void SupportReactions::add_end_moment(double sign, double x, bool first, Eliminated& to) const {
+  const BeamMesh& mesh = beam_.mesh();
+  if (mesh.n_sections() < 2 || support_at(mesh, x) != EndSupport::clamped) return;
+  const auto positions = mesh.section_positions();
+  const std::size_t nearest = first ? 0 : mesh.n_sections() - 1;
+  const std::size_t next = first ? 1 : nearest - 1;
+  const double next_share = (x - positions[nearest]) / (positions[next] - positions[nearest]);
+  const auto add = [&](std::size_t section, double share) {
+    if (in_modes()) {
+      mesh.curvature_functional(section).add_to(to.of_unknowns,
+                                                share * beam_.sections().stiffness());
+    } else {
+      to.of_moments[section] += share;
+    }
+  };
+  add(nearest, sign * (1.0 - next_share));
+  add(next, sign * next_share);
+}
+
+// Damping inside the beam adds to each elastic moment and shear force beta times its rate; in a
+// mode c/omega^2 times, where c is its own damping, without alpha.
+void SupportReactions::add_damping(Eliminated& to) const {
+  const BeamMesh& mesh = beam_.mesh();
+  const BeamDamping& damping = beam_.damping();
+  if (in_modes()) {
+    if (damping.is_none()) return;
+    to.of_velocities.resize(mesh.n_unknowns(), 0.0);
+    for (std::size_t k = 0; k < mesh.n_unknowns(); ++k) {
+      const double squared = beam_.modal_stiffness()[k] / mesh.mass().at(k, k);
+      if (squared == 0.0) continue;
+      to.of_velocities[k] = (beam_.modal_damping()[k] - damping.mass) / squared * to.of_unknowns[k];
+    }
+    return;
+  }
+  if (damping.stiffness == 0.0) return;
+  to.of_velocities = to.of_unknowns;
+  to.of_velocities.resize(mesh.n_unknowns(), 0.0);
+  for (std::size_t j = 0; j < mesh.n_sections(); ++j) {
+    mesh.curvature_functional(j).add_to(to.of_velocities,
+                                        beam_.sections().stiffness() * to.of_moments[j]);
+  }
+  for (double& coefficient : to.of_velocities) coefficient *= damping.stiffness;
+}
+
+double SupportReactions::value(const Eliminated& of, double t, const State& y,
+                               std::span<const double> moments) const {
+  const auto sum = [](const std::vector<double>& coefficients, std::span<const double> values) {
+    return std::inner_product(coefficients.begin(), coefficients.end(), values.begin(), 0.0);
+  };
+  double value = beam_.contact_force(y) * of.of_force;
+  value += sum(of.of_moments, moments);
+  if (!of.of_loads.empty()) value += beam_.loads().potential(of.of_loads, t);
+  value += sum(of.of_unknowns, beam_.beam_positions(y));
+  return value + sum(of.of_velocities, beam_.beam_velocities(y));
+}
+
+SupportReactions::Forces SupportReactions::at(double t, const State& y, Accounts& accounts) const {
+  const double force = beam_.contact_force(y);
+  // The resultant of loads, springs and bedding.
+  const std::span<const double> unknowns = beam_.beam_positions(y);
+  const auto of_ground = [&](std::span<const double> functional) {
+    return std::inner_product(functional.begin(), functional.end(), unknowns.begin(), 0.0);
+  };
+  const auto [load, load_moment] = beam_.loads().resultant(t);
+  const double others = load - of_ground(beam_.mesh().ground_force());
+  const double other_moments = load_moment - of_ground(beam_.mesh().ground_moment());
+  std::span<const double> moments;
+  if (!in_modes()) moments = accounts.bending(y).moments;
+  const double sum = value(momentum_, t, y, moments) - force - others;
+  if (beam_.mesh().symmetric()) return {0.5 * sum, 0.5 * sum};
+  if (!held_[1]) return {sum, std::nullopt};
+  if (!held_[0]) return {std::nullopt, sum};
+  if (!moment_) return {};
+  const double moment = value(*moment_, t, y, moments) - force * struck_at_ - other_moments;
+  const double last = moment / length_;
+  return {sum - last, last};
+}
+
+}  // namespace subimpact

@@ -1,0 +1,142 @@
+// Where a run begins anew: after flights, at corners of the loads, at times that all but coincide.
+
+#include <cmath>
+#include <random>
+
+#include "rigid_case.h"
+#include "runs.h"
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+constexpr Method adaptive[] = {Method::erk,  Method::nystrom, Method::exponential, Method::dirk,
+                               Method::imex, Method::adams,   Method::bdf};
+
+// A mass of 0.1 g to 10 kg that falls for 1 mm to 10 m onto a rigid plane and bounces.
+Case drop(ContactKind kind, bool damped, std::mt19937& random) {
+  const auto between = [&](double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution<>()(random));
+  };
+  Case input = rigid_case(kind, 0.0, 1.0);
+  input.scene.beam.fixed = true;
+  input.scene.beam.thickness = 1.0;
+  input.scene.gravity = 9.81;
+  input.scene.striker.mass = between(1e-4, 10.0);
+  input.scene.striker.drop_height = between(1e-3, 10.0);
+  if (kind == ContactKind::sphere) {
+    input.scene.striker.nose_radius = between(1e-3, 0.1);
+    input.scene.contact = {ContactKind::sphere, {}, 2e11, 0.3, 0.3};
+  } else {
+    input.scene.contact.stiffness = between(1e5, 1e8) * (kind == ContactKind::hertz ? 1e2 : 1.0);
+    if (damped) input.scene.contact.damping = between(1e-3, 0.3);
+  }
+  input.end_time = 3.0 * std::sqrt(2.0 * *input.scene.striker.drop_height / 9.81);
+  input.output.interval = 0.0;
+  return input;
+}
+
+TEST(Restarts, AfterFlightsUnderGravitySucceedWithEveryAdaptiveMethodAndLaw) {
+  for (const ContactKind kind : {ContactKind::linear, ContactKind::hertz, ContactKind::sphere}) {
+    for (const bool damped : {false, true}) {
+      if (damped && kind == ContactKind::sphere) continue;
+      for (const Method method : adaptive) {
+        if (damped && (method == Method::exponential || method == Method::nystrom)) continue;
+        std::mt19937 random(1);
+        for (int i = 0; i < 40; ++i) {
+          Case input = drop(kind, damped, random);
+          input.solver.method = method;
+          const Result result = simulate(input);
+          EXPECT_TRUE(result.outcome.completed())
+              << to_string(method) << ' ' << i << ' ' << static_cast<int>(kind) << ' '
+              << input.scene.striker.mass << " kg from " << *input.scene.striker.drop_height
+              << " m, " << input.scene.contact.damping << " s/m: " << result.outcome.message;
+          EXPECT_GE(result.sub_impacts.size(), 2u) << to_string(method) << ' ' << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(Restarts, AtCornersBesideRowsOneUlpAway) {
+  const double row = 3e-4;
+  const double beside[] = {1e-300, 1e-20, std::nextafter(row, 0.0), row, std::nextafter(row, 1.0)};
+  for (const double corner : beside) {
+    for (const Method method : adaptive) {
+      Case input = rigid_case(ContactKind::linear, 1.0, 2e-3);
+      input.scene.striker.mass = 1.0;
+      input.scene.beam.forces = {{0.5, {{0.0, 0.0}, {corner, 1.0}, {2e-3, 0.0}}}};
+      input.solver.method = method;
+      input.output.interval = 1e-4;
+      const Result result = simulate(input);
+      EXPECT_TRUE(result.outcome.completed())
+          << to_string(method) << ' ' << corner << ": " << result.outcome.message;
+      EXPECT_LT(result.max_energy_error, 1e-6) << to_string(method) << ' ' << corner;
+    }
+  }
+}
+
+// Corners of a load, rows, the first touch and the end of a run that all but meet.
+TEST(Restarts, WhereTimesOfDifferentKindsMeet) {
+  const double at = 3e-4;
+  const double close[] = {std::nextafter(at, 0.0), at, std::nextafter(at, 1.0)};
+  const auto complete = [](Case input, const char* what, double t) {
+    for (const Method method : adaptive) {
+      // Open: a touch within a rounding of a corner ends where it begins by multistep methods.
+      const bool is_multistep = method == Method::adams || method == Method::bdf;
+      if (is_multistep && std::string_view(what).starts_with("touch")) continue;
+      input.solver.method = method;
+      input.solver.rtol = 1e-10;
+      const Result result = simulate(input);
+      EXPECT_TRUE(result.outcome.completed())
+          << to_string(method) << ", " << what << ' ' << t << ": " << result.outcome.message;
+      EXPECT_LT(result.max_energy_error, 1e-6) << to_string(method) << ", " << what << ' ' << t;
+    }
+  };
+  for (const double t : close) {
+    Case input = rigid_case(ContactKind::linear, 1.0, 2e-3);
+    input.scene.striker.mass = 1.0;
+    input.output.interval = 1e-4;
+    Case two = input;
+    two.scene.beam.forces = {{0.5, {{0.0, 0.0}, {t, 1.0}, {at, 2.0}, {2e-3, 0.0}}}};
+    if (t <= at) complete(two, "two corners", t);
+    Case end = input;
+    end.end_time = t;
+    end.scene.beam.forces = {{0.5, {{0.0, 0.0}, {at, 1.0}, {2e-3, 0.0}}}};
+    complete(end, "end beside a corner and a row", t);
+    Case start = input;
+    start.scene.striker.gap = t;  // at 1 m/s
+    start.scene.beam.forces = {{0.5, {{0.0, 0.0}, {at, 0.0}, {2e-3, 1.0}}}};
+    complete(start, "touch beside a corner and a row", t);
+  }
+  for (const double tiny : {1e-300, 5e-324}) {
+    Case input = rigid_case(ContactKind::linear, 1.0, 2e-3);
+    input.output.interval = 1e-4;
+    input.scene.striker.gap = 1e-50;
+    complete(input, "gap beside", tiny);
+    input.scene.striker.gap = 0.0;
+    input.scene.beam.forces = {{0.5, {{0.0, 0.0}, {tiny, 1.0}, {2.0 * tiny, 0.0}, {2e-3, 1.0}}}};
+    complete(input, "corners", tiny);
+  }
+}
+
+TEST(Restarts, AFallFromRestIsThatOfItsDropHeight) {
+  Case input = rigid_case(ContactKind::linear, 0.0, 0.1);
+  input.scene.beam.fixed = true;
+  input.scene.gravity = 9.81;
+  input.scene.striker.gap = 1e-2;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  EXPECT_NEAR(result.first_touch.striker, std::sqrt(2.0 * 9.81 * 1e-2), 1e-9);
+  input.scene.striker.gap = 0.0;
+  for (const double v : {1e-6, 1e-9, 1e-12, 1e-20}) {  // set down
+    input.scene.striker.velocity = v;
+    const Result set_down = simulate(input);
+    EXPECT_TRUE(set_down.outcome.completed()) << v << ": " << set_down.outcome.message;
+    const double static_depth = input.scene.striker.mass * 9.81 / *input.scene.contact.stiffness;
+    EXPECT_NEAR(set_down.max_indentation, 2.0 * static_depth, 1e-2 * static_depth) << v;
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,182 @@
+#include "case_with.h"
+#include "paper_scene.h"
+#include "print.h"
+#include "small_case.h"
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+TEST(CaseFile, GivesEveryValueOfThePapersCase) {
+  const Case read = read_case_file(SUBIMPACT_PAPER_CASE).value;
+  EXPECT_EQ(read.scene.beam.length, 0.7112);
+  EXPECT_EQ(read.scene.beam.width, 0.0163);
+  EXPECT_EQ(read.scene.beam.thickness, 0.0075);
+  EXPECT_EQ(read.scene.beam.density, 2600.0);
+  EXPECT_EQ(read.scene.beam.youngs_modulus, 71.96e9);
+  EXPECT_EQ(read.scene.beam.yield_stress, 150e6);
+  EXPECT_EQ(read.scene.beam.theory, BeamTheory::rayleigh);
+  EXPECT_EQ(read.scene.striker.mass, 0.201);
+  EXPECT_EQ(read.scene.striker.nose_radius, 0.01);
+  EXPECT_EQ(read.scene.striker.velocity, 15.9);
+  EXPECT_EQ(read.scene.striker.position, 0.5);
+  EXPECT_EQ(read.model.segments, 501);
+  EXPECT_EQ(read.model.section, SectionKind::layers);
+  EXPECT_EQ(read.model.layers, 40);
+  EXPECT_EQ(read.end_time, 8e-3);
+  EXPECT_EQ(read.solver.method, Method::erk);
+  EXPECT_EQ(read.output.interval, 1e-6);
+}
+
+// The values of all keys of a case, as texts.
+std::vector<std::string> texts_of(const Case& input) {
+  std::vector<std::string> texts;
+  for (const CaseKey& key : case_keys()) {
+    const auto value = key.get(input);
+    texts.push_back(value ? to_text(*value) : "none");
+  }
+  return texts;
+}
+
+TEST(CaseFileText, IsReadBackAsTheSameCase) {
+  const std::vector<std::vector<std::string>> all = {
+      {},
+      {"beam.yield_stress=inf", "output.sections=0.5,0.25"},
+      {"model.mesh=hermite", "model.elements=40", "beam.damping.ratio=0.01",
+       "model.section=elastic"},
+      {"contact.law=hertz", "contact.stiffness=1.1e9"}};
+  for (const auto& settings : all) {
+    Case input = paper_case_with(settings);
+    input.title = "\"quoted\" \\ <b> 'x' `y`\nsecond line \x01\x7f \xc3\xbc = [a]";
+    const std::string text = case_file_text(input);
+    EXPECT_EQ(texts_of(read_case_text(text, "copy").value), texts_of(input)) << text;
+  }
+}
+
+TEST(CaseFile, KeysLeftOutKeepTheirDefaults) {
+  const Case read = read_case_text(small_case_text(), "small.toml").value;
+  EXPECT_TRUE(std::isinf(read.scene.beam.yield_stress));
+  EXPECT_EQ(read.model.segments, Case{}.model.segments);
+  EXPECT_EQ(read.solver.rtol, Case{}.solver.rtol);
+  EXPECT_FALSE(read.solver.step.has_value());
+}
+
+// The small case with settings.
+LoadedCase with(const std::vector<std::string>& settings,
+                const std::string& text = small_case_text()) {
+  return read_case_text(text, "small.toml", overrides(settings));
+}
+
+TEST(CaseFile, TakesSettingsBeforeItsOwnLinesAndTheLastOfTwo) {
+  const Case read =
+      with({"beam.length=0.5", "model.segments = 101", "time.end=1", "time.end=2", "title=a=b"})
+          .value;
+  EXPECT_EQ(read.scene.beam.length, 0.5);
+  EXPECT_EQ(read.scene.beam.density, 2600.0) << "a whole number in the file";
+  EXPECT_EQ(read.model.segments, 101);
+  EXPECT_EQ(read.end_time, 2.0);
+  EXPECT_EQ(read.title, "a=b");
+  const std::string without_mass = small_case_with("mass = 0.201\n", "");
+  EXPECT_EQ(with({"striker.mass=0.3"}, without_mass).value.scene.striker.mass, 0.3);
+  for (const char* setting : {"model.section=elastic", "model.section=\"elastic\""}) {
+    EXPECT_EQ(with({setting}).value.model.section, SectionKind::elastic) << setting;
+  }
+  for (const char* setting : {"beam.ends=free,pinned", "beam.ends=[\"free\", \"pinned\"]"}) {
+    EXPECT_EQ(with({setting}).value.scene.beam.ends[1], pinned) << setting;
+  }
+}
+
+TEST(CaseFile, ASettingCanTakeAKeyBackToItsDefault) {
+  const LoadedCase loaded = with({"solver.step=1e-7", "model.segments=101", "solver.step=default"});
+  EXPECT_FALSE(loaded.value.solver.step);
+  EXPECT_FALSE(loaded.given.in_settings.contains("solver.step"));
+  EXPECT_TRUE(loaded.given.in_settings.contains("model.segments"));
+}
+
+TEST(CaseFile, ATableWithinATableIsWrittenAsOneOrAsDottedKeysOrInline) {
+  for (const char* damping : {"[beam.damping]\nratio = 0.01\nmass = 20\n[striker]\n",
+                              "damping.ratio = 0.01\ndamping.mass = 20\n[striker]\n",
+                              "damping = { ratio = 0.01, mass = 20 }\n[striker]\n"}) {
+    const Case read =
+        with({"beam.damping.stiffness=1e-7"}, small_case_with("[striker]\n", damping)).value;
+    EXPECT_EQ(read.scene.beam.damping.ratio, 0.01);
+    EXPECT_EQ(read.scene.beam.damping.mass, 20.0);
+    EXPECT_EQ(read.scene.beam.damping.stiffness, 1e-7);
+  }
+  const std::string wrong =
+      small_case_with("[striker]\n", "[beam.damping]\nratoi = 0.01\n[striker]\n");
+  expect_in(message_of<CaseFileError>([&] { with({}, wrong); }),
+            "unknown key \"beam.damping.ratoi\"", "did you mean \"beam.damping.ratio\"");
+}
+
+TEST(CaseFile, AnErrorFoundLaterIsGivenThePlaceOfItsKey) {
+  const LoadedCase loaded = with({"model.segments=501"});
+  EXPECT_EQ(loaded.message(InvalidCase("beam.length", "is odd")),
+            "small.toml:2:1: beam.length is odd");
+  EXPECT_EQ(loaded.message(InvalidCase("model.segments", "is odd")),
+            "--set model.segments=501: model.segments is odd");
+  EXPECT_EQ(loaded.message(InvalidCase("model.layers", "is odd")),
+            "small.toml: model.layers (the default) is odd");
+}
+
+TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
+  Case foundation = read_case_file(SUBIMPACT_PAPER_CASE).value;
+  foundation.solver.step = 1e-7;
+  foundation.accuracy.energy = 1e-4;
+  foundation.accuracy.event_times = 1e-6;
+  foundation.solver.max_step = 2e-7;
+  foundation.solver.table = "dormand-prince";
+  foundation.output.points = {0.5};
+  foundation.output.shapes = 1e-5;
+  foundation.solver.events = EventHandling::located;
+  for (const CaseKey& key : case_keys()) {
+    if (key.name.starts_with("scatter.")) key.set(foundation, 0.0);
+  }
+  Case linear = foundation;
+  linear.scene.contact = {ContactKind::linear, 1e7, {}, {}, {}};
+  Case sphere = foundation;
+  sphere.scene.contact = {ContactKind::hertz, {}, 2e11, 0.3, 0.25};
+  Case sheared = foundation;
+  sheared.scene.beam.theory = BeamTheory::timoshenko;
+  sheared.scene.beam.poisson = 0.3;
+  sheared.scene.beam.shear_coefficient = 0.85;
+  Case box = linear;
+  box.scene.beam.width = box.scene.beam.thickness = 0.0;
+  box.scene.beam.section = {
+      .shape = SectionShape::box, .height = 0.02, .width = 0.03, .wall = 0.002};
+  Case tube = box;
+  tube.scene.beam.section = {.shape = SectionShape::tube, .diameter = 0.02, .wall = 0.002};
+  Case beam_i = box;
+  beam_i.scene.beam.section = {
+      .shape = SectionShape::i, .height = 0.04, .width = 0.03, .flange = 0.004, .web = 0.003};
+  Case yielding = sphere;
+  yielding.scene.contact.kind = ContactKind::sphere;
+  yielding.scene.contact.yield_pressure = 4e8;
+  yielding.scene.striker.nose = NoseShape::sphere;
+  yielding.scene.beam.pivot = 0.5;
+  yielding.at_rest = true;
+  Case line = sheared;
+  Contact& contact = line.scene.contact;
+  contact.kind = ContactKind::line;
+  contact.pressure_by_depth = true;
+  contact.indentation = IndentationFrom::mid_plane;
+  std::set<std::string> covered;
+  for (const Case& original :
+       {foundation, linear, sphere, sheared, box, tube, beam_i, yielding, line}) {
+    std::vector<Override> all;
+    for (const CaseKey& key : case_keys()) {
+      const std::optional<KeyValue> value = key.get(original);
+      if (!value) continue;
+      all.push_back(parse_override(key.name + "=" + to_text(*value)));
+      covered.insert(key.name);
+    }
+    const Case copy = read_case_text("", "empty.toml", all).value;
+    for (const CaseKey& key : case_keys()) EXPECT_EQ(key.get(copy), key.get(original)) << key.name;
+  }
+  // These go with one method, or in place of another key: solver.reversals, solver.max_order,
+  // striker.drop_height.
+  EXPECT_GE(covered.size(), case_keys().size() - 3);
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,318 @@
+#include "subimpact/io/output_directory.h"
+
+#include <sys/stat.h>
+
+#include "file_size_limit.h"
+#include "io/directory/listed_files.h"
+#include "subimpact/io/read_results.h"
+#include "subimpact/io/results.h"
+#include "temporary_directory.h"
+#include "testing.h"
+
+namespace subimpact {
+namespace {
+
+namespace fs = std::filesystem;
+
+using AFullDisk = InADirectory;
+using AnOutputDirectory = InADirectory;
+
+using Names = std::vector<std::string>;
+
+// A directory's files of a kind, made by one writer.
+void make(const fs::path& directory, const std::string& kind, const std::string& identity,
+          const std::map<std::string, std::string>& all) {
+  OutputDirectory files(directory, kind, identity);
+  for (const auto& [name, content] : all) write_file(files.staging() / name, content);
+  files.commit();
+}
+
+void commit(OutputDirectory& files, const std::string& name, const std::string& content) {
+  write_file(files.staging() / name, content);
+  files.commit();
+}
+
+std::string refusal_of(const fs::path& directory, const std::string& kind,
+                       const std::string& identity = "1") {
+  return answer_of<OutputError>([&] { OutputDirectory(directory, kind, identity); });
+}
+
+TEST_F(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
+  for (const char* name : {"", "new"}) {  // which is there, and which is made
+    {
+      const OutputDirectory files(directory.path / name, "run");
+      write_file(files.staging() / "events.csv", "1");
+    }
+    EXPECT_TRUE(fs::is_empty(directory.path)) << name;
+  }
+}
+
+TEST_F(AnOutputDirectory, ThatCannotBeMadeIsRefusedWithTheCause) {
+  directory.write("file", "x");
+  expect_in(refusal_of(directory.path / "file", "run"), "a file has that name");
+  expect_in(refusal_of(directory.path / "file" / "below", "run"), "cannot be made");
+  expect_in(refusal_of(directory.path / std::string(300, 'x'), "run"), "File name too long");
+  fs::create_symlink("nothing", directory.path / "link");
+  expect_in(refusal_of(directory.path / "link", "run"), "a symbolic link to nothing");
+}
+
+TEST_F(AnOutputDirectory, NamedByASymbolicLinkHasItsFilesInTheirPlaces) {
+  fs::create_directory(directory.path / "real");
+  fs::create_directory_symlink("real", directory.path / "link");
+  for (const char* content : {"1", "2"}) {
+    OutputDirectory files(directory.path / "link", "run");
+    write_file(files.staging() / "events.csv", content);
+    files.commit();
+    EXPECT_TRUE(files.notes().empty());
+    EXPECT_EQ(directory.read("real/events.csv"), content);
+  }
+}
+
+TEST_F(AnOutputDirectory, HasOneWriterAtATime) {
+  {
+    const OutputDirectory first(directory.path, "run");
+    expect_in(refusal_of(directory.path, "run"), "process " + std::to_string(getpid()) + " on ",
+              "is writing into this directory; wait until");
+    EXPECT_THROW(OutputDirectory(directory.path, "run"), DirectoryInUse);
+  }
+  EXPECT_EQ(refusal_of(directory.path, "run"), "(accepted)");
+}
+
+TEST_F(AnOutputDirectory, LosesTheFilesOfTheRunBefore) {
+  make(directory.path, "run", "1", {{"sections.csv", "old"}, {"events.csv", "old"}});
+  OutputDirectory files(directory.path, "run");
+  EXPECT_EQ(directory.read("events.csv"), "old");
+  commit(files, "events.csv", "new");
+  EXPECT_EQ(directory.read("events.csv"), "new");
+  EXPECT_FALSE(directory.has("sections.csv"));
+  EXPECT_TRUE(files.notes().empty());
+}
+
+TEST_F(AnOutputDirectory, TellsWhichPagesAndFiguresOfTheRunBeforeItRemoves) {
+  make(directory.path, "run", "1", {{"sections.csv", "old"}, {"events.csv", "old"}});
+  make(directory.path, "figures", "1", {{"report.html", "page"}, {"response.svg", "drawn"}});
+  OutputDirectory files(directory.path, "run");
+  commit(files, "events.csv", "new");
+  EXPECT_FALSE(directory.has("report.html"));
+  ASSERT_EQ(files.notes().size(), 1u);
+  expect_in(files.notes().front(), "removed", "report.html, response.svg", "subimpact report");
+}
+
+TEST_F(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
+  directory.write("notes.txt", "mine");
+  directory.write("transitions.csv", "mine");
+  fs::create_symlink("notes.txt", directory.path / "summary.json");
+  make(directory.path, "run", "1", {{"figure.gp", "drawn"}, {"events.csv", "old"}});
+  std::ofstream(directory.path / "events.csv", std::ios::app) << " and my remark";
+  std::ofstream(directory.path / "figure.gp", std::ios::app) << " and my colours";
+  OutputDirectory files(directory.path, "run");
+  for (const char* name : {"events.csv", "transitions.csv", "summary.json"}) {
+    write_file(files.staging() / name, "new");
+  }
+  files.commit();
+  EXPECT_EQ(directory.read("notes.txt"), "mine");
+  EXPECT_EQ(directory.read("transitions.csv.kept"), "mine");
+  EXPECT_EQ(directory.read("events.csv.kept"), "old and my remark");
+  EXPECT_EQ(directory.read("figure.gp"), "drawn and my colours");
+  EXPECT_TRUE(fs::is_symlink(directory.path / "summary.json.kept"));
+  EXPECT_EQ(directory.read("summary.json"), "new");
+  EXPECT_EQ(files.notes().size(), 4u);
+}
+
+TEST_F(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
+  make(directory.path, "run", "1", {{"figure.gp", "drawn"}, {"events.csv", "old"}});
+  std::ofstream(directory.path / "figure.gp", std::ios::app) << " and my colours";
+  {
+    OutputDirectory files(directory.path, "run", "2");
+    commit(files, "events.csv", "new");
+    EXPECT_EQ(files.notes().size(), 1u);
+  }
+  const OutputDirectory later(directory.path, "figures", "2");
+  EXPECT_EQ(later.notes(), Names());
+  EXPECT_EQ(directory.read("figure.gp"), "drawn and my colours");
+}
+
+TEST_F(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
+  make(directory.path, "run", "1", {{"events.csv", "of run 1"}});
+  make(directory.path, "figures", "1", {{"response.svg", "of run 1"}});
+  EXPECT_EQ(ListedFiles(directory.path).text("events.csv"), "of run 1");
+  EXPECT_EQ(ListedFiles(directory.path).text("response.svg"), "of run 1");
+  expect_in(refusal_of(directory.path, "figures", "2"), "holds the results of another run");
+  OutputDirectory run(directory.path, "run", "2");
+  commit(run, "events.csv", "of run 2");
+  EXPECT_FALSE(directory.has("response.svg"));
+}
+
+TEST_F(AnOutputDirectory, DoesNotMixTheFiguresOfTwoRunsWithoutIdentity) {
+  make(directory.path, "figures", "", {{"bending.svg", "of one run"}});
+  OutputDirectory figures(directory.path, "figures", "");
+  commit(figures, "response.svg", "of another run");
+  EXPECT_FALSE(directory.has("bending.svg"));
+}
+
+TEST_F(AnOutputDirectory, HoldsFilesOfOneKind) {
+  make(directory.path, "compare", "1", {{"comparison.csv", "1"}});
+  expect_in(refusal_of(directory.path, "run"), "holds the results of `subimpact compare`");
+  EXPECT_EQ(refusal_of(directory.path, "compare"), "(accepted)");
+}
+
+TEST_F(AnOutputDirectory, WithAManifestOfAnotherProgramIsRefused) {
+  directory.write("manifest.json", "{\"name\": \"of a web page\"}");
+  expect_in(refusal_of(directory.path, "run"), "is not a manifest of this program");
+  EXPECT_EQ(names_in(directory.path), (Names{"manifest.json"}));
+}
+
+// A manifest from elsewhere may name files outside its directory.
+TEST_F(AnOutputDirectory, IsNotLedOutsideByItsManifest) {
+  directory.write("outside", "x");
+  fs::create_directory(directory.path / "inside");
+  std::ofstream(directory.path / "inside" / "manifest.json")
+      << R"({"subimpact_manifest": 1, "kind": "run", "identity": "1", "commit": "1", "files": {},
+             "replaced": {"../outside": {"bytes": 1, "sha256":
+             "2d711642b726b04401627ca9fbac32f5c8530fb1903cc4db02258717921a4881"}}})";
+  expect_in(refusal_of(directory.path / "inside", "run"), "is not the name of a file of results");
+  EXPECT_TRUE(directory.has("outside"));
+}
+
+// The states that a killed writer leaves: before the manifest is replaced, after it, and with some
+// of the files moved.
+class AKilledWriter : public testing::Test {
+ protected:
+  AKilledWriter() {
+    {
+      OutputDirectory files(directory_.path, "run", "1");
+      write_file(files.staging() / "a.csv", "old a");
+      commit(files, "b.csv", "old b");
+    }
+    fs::copy(directory_.path, killed_.path, fs::copy_options::recursive);
+    OutputDirectory files(directory_.path, "run", "2");
+    write_file(files.staging() / "a.csv", "new a");
+    write_file(files.staging() / "b.csv", "new b");
+    staging_ = files.staging().filename();
+    fs::copy(files.staging(), killed_.path / staging_);
+    files.commit();
+  }
+  void replace_manifest() {
+    fs::copy_file(directory_.path / "manifest.json", killed_.path / "manifest.json",
+                  fs::copy_options::overwrite_existing);
+  }
+  std::string read() const {
+    const ListedFiles files(killed_.path);
+    return files.text("a.csv") + ", " + files.text("b.csv");
+  }
+
+  TemporaryDirectory directory_, killed_;
+  fs::path staging_;
+};
+
+TEST_F(AKilledWriter, LeavesTheOlderFilesBeforeItsManifest) {
+  EXPECT_EQ(read(), "old a, old b");
+  const OutputDirectory next(killed_.path, "run");
+  EXPECT_EQ(read(), "old a, old b");
+  EXPECT_FALSE(fs::exists(killed_.path / staging_));
+}
+
+TEST_F(AKilledWriter, LeavesTheNewerFilesFromItsManifestOn) {
+  replace_manifest();
+  EXPECT_EQ(read(), "new a, new b");
+  fs::rename(killed_.path / staging_ / "a.csv", killed_.path / "a.csv");
+  EXPECT_EQ(read(), "new a, new b");
+  const OutputDirectory next(killed_.path, "run");
+  EXPECT_EQ(read(), "new a, new b");
+  EXPECT_EQ(read_file(killed_.path / "b.csv"), "new b");
+  EXPECT_FALSE(fs::exists(killed_.path / staging_));
+}
+
+TEST_F(AFullDisk, SendsWhatWasStagedElsewhere) {
+  OutputDirectory files(directory.path, "run");
+  write_file(files.staging() / "events.csv", "1");
+  files.relocate("disk full");
+  commit(files, "summary.json", "2");
+  EXPECT_TRUE(fs::is_empty(directory.path));
+  EXPECT_EQ(ListedFiles(files.path()).text("events.csv"), "1");
+  EXPECT_EQ(ListedFiles(files.path()).text("summary.json"), "2");
+  ASSERT_EQ(files.notes().size(), 1u);
+  EXPECT_EQ(files.notes().front(),
+            "disk full; the results are in " + files.path().string() + " instead");
+  fs::remove_all(files.path());
+}
+
+TEST_F(AFullDisk, IsNamedByTheFileThatCannotBeWritten) {
+  std::string message;
+  {
+    const FileSizeLimit limit(1000);
+    message = message_of<OutputError>(
+        [&] { write_file(directory.path / "events.csv", std::string(5000, 'x')); });
+  }
+  expect_in(message, "events.csv: cannot be written (File too large); free the disk");
+}
+
+// Rows of 485 TB.
+TEST(ADiskTooSmall, IsFoundBeforeTheRunAndTheOlderFilesStay) {
+  const TemporaryDirectory directory;
+  make(directory.path, "run", "1", {{"events.csv", "old"}});
+  const Names before = names_in(directory.path);
+  Case input;
+  input.end_time = 1.0;
+  input.output.interval = 2e-7;
+  input.output.sections.assign(1'000'000, 0.5);
+  EXPECT_GT(expected_bytes(input), 4.8e14);
+  expect_in(message_of<OutputError>([&] { const ResultWriter files(directory.path, input); }),
+            directory.path.string() + ": the rows of this run take some 4.9e+05 GB, and",
+            "use a longer output.interval, or choose another directory with --out");
+  EXPECT_EQ(names_in(directory.path), before);
+}
+
+TEST(FilesBeingMade, AreNamedByTheirPlaceInMessages) {
+  const TemporaryDirectory directory;
+  OutputDirectory files(directory.path, "run");
+  fs::create_directory(files.staging() / "events.csv");
+  expect_in(message_of<OutputError>([&] { write_file(files.staging() / "events.csv", "new"); }),
+            (directory.path / "events.csv").string() + ": cannot be written");
+}
+
+TEST_F(AnOutputDirectory, KeepsHiddenFilesThatTheProgramDidNotMake) {
+  fs::create_directory(directory.path / ".subimpact-backup");
+  write_file(directory.path / ".subimpact-backup" / "data", "mine");
+  write_file(directory.path / ".subimpact-notes", "mine");
+  OutputDirectory files(directory.path, "run");
+  commit(files, "events.csv", "1");
+  EXPECT_EQ(directory.read(".subimpact-backup/data"), "mine");
+  EXPECT_EQ(directory.read(".subimpact-notes"), "mine");
+}
+
+TEST(APipeInPlaceOfAFile, IsRefusedInsteadOfWaitedFor) {
+  const TemporaryDirectory directory;
+  make(directory.path, "run", "1", {{"events.csv", "1"}});
+  const fs::path file = directory.path / "events.csv";
+  fs::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  expect_in(message_of<ResultsError>([&] { ListedFiles(directory.path).text("events.csv"); }),
+            "it is no regular file");
+}
+
+TEST(ADirectoryRemovedDuringARun, LosesNoRow) {
+  const TemporaryDirectory directory;
+  Case input;
+  input.end_time = 1.0;
+  input.output.interval = 1e-5;
+  input.output.shapes = 0.0;
+  ResultWriter files(directory.path / "here", input);
+  const int n_rows = 20'000;  // more than are collected before they are written
+  HistoryRow row;
+  for (int i = 0; i < n_rows; ++i) {
+    row.time = 1e-5 * i;
+    files.add(row);
+    if (i == n_rows / 2) fs::remove_all(directory.path / "here");
+  }
+  files.finish(input, Result{});
+  const fs::path place = files.directory().path();
+  EXPECT_TRUE(files.directory().is_relocated());
+  const std::string history = ListedFiles(place).text("history.csv");
+  EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), n_rows + 1);
+  EXPECT_EQ(history.find('\0'), std::string::npos);
+  fs::remove_all(place);
+}
+
+}  // namespace
+}  // namespace subimpact

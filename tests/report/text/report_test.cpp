@@ -1,0 +1,425 @@
+#include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
+
+#include <fmt/format.h>
+
+#include "case_with.h"
+#include "report/pages/page.h"
+#include "sample_result.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/simulate/options.h"
+#include "subimpact/study/run_as_asked.h"
+#include "testing.h"
+#include "text/summary_lines.h"
+
+namespace subimpact {
+namespace {
+
+Case paper_case() { return paper_case_with({}); }
+
+TEST(RunSummary, GivesLargestForceAndFinalVelocitiesTheirErrors) {
+  Result result = sample_result_with_errors(3);
+  result.striker_velocity = 5.793326;
+  result.beam_mean_velocity = 9.02134;
+  result.max_indentation = 1.6963887700000001e-4;
+  const std::string summary = summary_of(paper_case(), result);
+  expect_in(line_of(summary, "largest force"), "8796.3 +- 0.5 N");
+  expect_in(line_of(summary, "dent"), "0.1540 +- 0.0009 mm", "0.169639 +- 0.000008 mm");
+  expect_in(line_of(summary, "restitution"), "0.20302 +- 0.00008", "striker 5.7933 +- 0.0007 m/s",
+            "beam 9.0213 +- 0.0006 m/s");
+}
+
+TEST(RunSummary, GivesZonesTheirErrors) {
+  const std::string summary = summary_of(paper_case(), sample_result_with_errors(3));
+  expect_in(line_of(summary, "zone 1"), "0.2000 +- 0.0006 N s", "2 sub-impacts in 2 sub-zones",
+            "0 to 600.0 +- 0.3 us");
+  expect_in(line_of(summary, "zone 2"), "0.1000 +- 0.0006 N s", "1 sub-impact,",
+            "5000.0 +- 0.3 to (open) us");
+  expect_in(line_of(summary_of(paper_case(), sample_result_with_errors(1)), "zone 1"),
+            "2 +- 1 sub-impacts in 2 sub-zones");
+}
+
+TEST(RunSummary, OfAnEstimateWithoutTotalsHasZonesAndNumbersWithoutErrors) {
+  Result result = sample_result_with_errors(3);
+  result.error_estimate->totals.clear();
+  result.error_estimate->zones.clear();
+  const std::string summary = summary_of(paper_case(), result);
+  expect_in(line_of(summary, "zone 1"), "2 sub-impacts in 2 sub-zones, 0.0 to 600.0 us");
+  expect_in(line_of(summary, "largest force"), "8800 N:");
+  expect_in(line_of(summary, "errors"), "a run beside did not complete");
+}
+
+TEST(RunSummary, GivesNoDigitsToFinalVelocitiesWhoseErrorIsNotKnown) {
+  Result result = sample_result_with_errors(2);
+  result.striker_velocity = 5.793326;
+  result.error_estimate->totals.at(2).total.error.reset();
+  const std::string line = line_of(summary_of(paper_case(), result), "restitution");
+  expect_in(line, "striker 5.79 m/s, beam");
+  expect_not_in(line, "5.793");
+}
+
+TEST(RunSummary, GivesNoRestitutionOfAStrikeThatIsNotOver) {
+  Result result = sample_result_with_errors(3);
+  result.restitution.reset();
+  expect_in(line_of(summary_of(paper_case(), result), "restitution"),
+            "not yet: striker and beam are in contact at the end");
+  result.sub_impacts.back().end = 6e-3;
+  expect_in(line_of(summary_of(paper_case(), result), "restitution"),
+            "not yet: striker and beam approach each other at the end");
+}
+
+TEST(RunSummary, GivesNoNumberWhoseErrorExceedsIt) {
+  Result result = sample_result_with_errors(3);
+  for (auto& [name, total] : result.error_estimate->totals) {
+    if (name == "peak_force_N") total.error = 12e3;
+  }
+  expect_in(line_of(summary_of(paper_case(), result), "largest force"), "? (at most 30000) N");
+}
+
+TEST(RunSummary, GivesAReasonOnce) {
+  const std::string summary = summary_of(paper_case(), sample_result_with_errors(2), true);
+  EXPECT_EQ(count_in(summary, "they part"), 1u) << summary;
+  expect_in(line_of(summary, "mesh error"), "as above (runs beside: the same, coarser)");
+}
+
+TEST(RunSummary, NamesTheErrorOfMeshAndTime) {
+  Result result = sample_result_with_errors(3);
+  result.error_estimate->parts.at(0).name = "mesh and time";
+  EXPECT_TRUE(line_of(summary_of(paper_case(), result, true), "mesh and time error ").size() > 25);
+}
+
+TEST(FinerMeshes, HaveSubImpactsAndConfirmSome) {
+  Result result = sample_result_with_errors(3);
+  result.error_estimate->finer_meshes = {"1003 cells", 54, 2, {}, {}};
+  expect_in(finer_meshes_words(result), "1003 cells have 54 sub-impacts and confirm 2 of these 3;");
+  result.sub_impacts.resize(1);
+  result.error_estimate->finer_meshes = {"63 cells", 1, 1, {}, {}};
+  expect_in(finer_meshes_words(result), "63 cells have 1 sub-impact and confirm the one here;");
+  result.error_estimate->finer_meshes->n_same = 0;
+  expect_in(finer_meshes_words(result), "63 cells have 1 sub-impact and do not confirm the one");
+}
+
+TEST(ModelTable, GivesTimesWithErrorsAndHowMuchLaterTheyCome) {
+  ModelRun rayleigh{"rayleigh", sample_result_with_errors(3), {}};
+  ModelRun timoshenko{"timoshenko", sample_result_with_errors(3), {}};
+  timoshenko.result.sub_impacts[0].end = 1e-6 * 353.583;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rayleigh.pairs.push_back({i, i});
+    timoshenko.pairs.push_back({i, i});
+  }
+  const std::string table = model_table({rayleigh, timoshenko});
+  expect_in(table, "353.583 +- 0.017", "+20.25",  // 353.583 - 333.333
+            "timoshenko: 3 sub-impacts, 3 by rayleigh", "the first 3 correspond", "20.25 us apart");
+}
+
+TEST(ErrorWords, NameTheErrorOfCertainTimesOrTheFirstDoubt) {
+  Result touch = sample_result_with_errors(3), between = sample_result_with_errors(1);
+  touch.sub_impacts.erase(touch.sub_impacts.begin(), touch.sub_impacts.end() - 1);
+  between.sub_impacts[2].certain = true;
+  const std::pair<Result, std::string> all[] = {
+      {sample_result_with_errors(3), "all times to 0.3 us up to 8 ms"},
+      {touch, "no event time up to 8 ms but the first touch, which is exact"},
+      {sample_result_with_errors(2),
+       "times of the certain ones to 0.3 us; sub-impact 3: they part"},
+      {between, "times of the certain ones to 0.017 us; sub-impact 2: they part"},
+      {sample_result_with_an_uncertain_flight(1),
+       "times of the certain ones to 0.3 us; after sub-impact 2: there is another one with the "
+       "same, "
+       "coarser"},
+      {sample_result_with_an_uncertain_flight(2),
+       "times of the certain ones to 0.3 us; after the last sub-impact: there is another one with "
+       "the same, coarser"},
+      {sample_result(),
+       "errors are not known; without --error-bars=off runs on coarser meshes estimate them"}};
+  for (const auto& [result, words] : all) EXPECT_EQ(error_words(result), words);
+}
+
+TEST(RunSummary, CountsTheSubImpactsThatAreCertain) {
+  expect_in(summary_of(paper_case(), sample_result_with_errors(3)),
+            "3 in 2 zones, all certain: 3 parted by more than 1 um, 3 by more than 10 um; all "
+            "times to 0.3 us up to 8 ms\n");
+  const std::string summary = summary_of(paper_case(), sample_result_with_errors(2));
+  expect_in(summary,
+            "3 in 2 zones, 2 certain: 3 parted by more than 1 um, 3 by more than 10 um; times");
+  expect_in(line_of(summary, "zone 2"), "1 +- 1 sub-impact, 5000.0 +- 0.3 to (open)");
+  expect_not_in(summary, "times to 0.0e+00");
+  expect_in(summary_of(paper_case(), sample_result_with_an_uncertain_flight(2)),
+            "3 in 2 zones, 3 certain, which may not be all: ");
+  expect_in(line_of(summary_of(paper_case(), sample_result()), "sub-impacts"), "not known");
+  Result both = sample_result_with_errors(2);
+  both.error_estimate->uncertain_flights = {{0, "there is another one"}};
+  both.error_estimate->totals.front().total.error = 2.0;
+  expect_in(summary_of(paper_case(), both), "3 in 2 zones, 2 certain, 1 more possible: ");
+}
+
+// The options of all advice, in one text.
+std::string advice_on(const Result& result, const GivenKeys& given = {}) {
+  std::string text;
+  for (const Advice& advised : advice(paper_case(), given, result)) {
+    EXPECT_GT(advised.seconds, 0.0);
+    EXPECT_FALSE(advised.gain.empty());
+    for (const auto& [option, value] : advised.options) text += option + ' ' + value + '\n';
+  }
+  return text;
+}
+
+Result result_that_took_a_while(std::size_t n_certain) {
+  Result result = sample_result_with_errors(n_certain);
+  result.contact_over = true;
+  result.used.contact_time = 7e-6;
+  result.work.all_seconds = 1.0;
+  result.work.right_hand_sides = 1000;
+  return result;
+}
+
+TEST(Advice, IsNoneWhereAllIsCertainAndOver) {
+  Result result = result_that_took_a_while(3);
+  EXPECT_EQ(advice_on(result), "");
+  result.contact_over = false;
+  EXPECT_EQ(advice_on(result), "--set time.end=0.016\n");
+  result.outcome.kind = OutcomeKind::stopped;
+  EXPECT_EQ(advice_on(result), "");
+}
+
+TEST(Advice, OnUncertainSubImpactsOfAChosenMeshIsAToleranceBelowTheErrors) {
+  Result result = result_that_took_a_while(2);
+  result.choice = "sections yield";
+  EXPECT_EQ(advice_on(result), "--within 0.05us\n");  // a fifth of 0.26 us
+  result = result_that_took_a_while(0);
+  result.choice = "sections yield";
+  EXPECT_EQ(advice_on(result), "--within 0.7us\n");  // a tenth of the shortest contacts
+}
+
+TEST(Advice, OnUncertainSubImpactsOfAMeshThatTheCaseFixesFreesIt) {
+  GivenKeys given;
+  given.in_file = {"model.segments", "model.section", "solver.rtol", "beam.length"};
+  EXPECT_EQ(advice_on(result_that_took_a_while(2), given),
+            "--set model.segments=default\n--set solver.rtol=default\n");
+  EXPECT_EQ(advice_on(result_that_took_a_while(2)), "") << "nothing is fixed";
+}
+
+TEST(Advice, OnSearchesThatTheLimitOfWorkEndedRaisesIt) {
+  Result result = result_that_took_a_while(2);
+  result.choice = "sections yield";
+  result.tolerance = ToleranceOutcome{1e-6, false, 2e-6, 1e-3, "", "accuracy.work_limit"};
+  expect_in(advice_on(result), "--within 1us\n--set accuracy.work_limit=");
+  result.tolerance->key = "model.segments";
+  EXPECT_EQ(advice_on(result), "");
+}
+
+TEST(Advice, OnShearIsTimoshenkosTheoryWhereShearMatters) {
+  Result result = result_that_took_a_while(3);
+  result.neglected_shear = {200e-6, 200.5e-6};
+  EXPECT_EQ(advice_on(result), "");
+  for (const std::optional<double> with : {std::optional(210e-6), std::optional<double>()}) {
+    result.neglected_shear->with = with;
+    EXPECT_EQ(advice_on(result), "--set beam.theory=timoshenko\n--set beam.poisson=0.3\n");
+  }
+}
+
+TEST(FailureMessage, NamesTimeModeMethodLastEventAndCause) {
+  Result result = sample_result();
+  result.outcome = {OutcomeKind::solver_failed, 12.5e-6, "the library gave up", {}};
+  const std::string message = failure_message(paper_case(), result);
+  expect_in(message, "solver-failed at 12.5 us", "in contact, sub-impact 3", "method erk",
+            "last event section_reverses at 0.666667 us", "the library gave up");
+  expect_not_in(message, "\n");
+  result.sub_impacts.pop_back();
+  expect_in(failure_message(paper_case(), result), "separated after sub-impact 2");
+}
+
+TEST(RunSummary, CountsSubImpactsByOpeningAndSaysWhatJoiningLeavesOfThem) {
+  Case input = paper_case();
+  Result result = sample_result_with_errors(1);
+  result.sub_impacts[0].opening = 0.5e-6;
+  result.sub_impacts[1].opening = 5e-6;
+  result.error_estimate->joined = {1e-6, 2, 2};
+  const std::string summary = summary_of(input, result);
+  expect_in(summary, "1 certain: 2 parted by more than 1 um, 1 by more than 10 um; ",
+            "parted by less than 1 um as one (--opening 1um): 2 sub-impacts, 2 certain\n");
+  input.output.opening = 2e-6;
+  expect_in(summary_of(input, result),
+            "contacts parted by less than 2 um joined, 1 parted by more than 10 um; ");
+}
+
+TEST(RunSummary, WeighsBeamAndStriker) {
+  Case input = paper_case();
+  expect_in(line_of(summary_of(input, sample_result()), "strike"), "0.201 kg", "nose of 10 mm",
+            "foundation", "15.9 m/s", "at the middle of a free-free beam of 0.2261 kg");
+  input.scene.beam.length *= 1e3;
+  input.scene.beam.width *= 1e3;
+  input.scene.beam.thickness *= 1e3;
+  expect_in(summary_of(input, sample_result()), "beam of 2.261e+05 t");
+}
+
+// A strike whose energies have a remainder in every rounding.
+Result result_with_energies() {
+  Result result = sample_result_with_errors(3);
+  result.used.initial_energy = 25.0;
+  result.final_energies = {3.3333, 5.5555, 4.4444, 9.6666, 0.0, 1.5002, 0.5};
+  result.contact_damping_loss = 0.25;
+  return result;
+}
+
+TEST(RunSummary, HasEnergiesThatAddUpToTheInitialOneAsTheyArePrinted) {
+  Result result = result_with_energies();
+  for (const double error : {0.0, 0.003, 0.04, 0.5}) {
+    result.error_estimate->totals.push_back({"dissipated_J", {0.0, error}});
+    std::istringstream line(line_of(summary_of(paper_case(), result), "energy"));
+    std::string word;
+    double sum = 0.0, initial = 0.0;
+    for (line >> word >> initial; line >> word;) {
+      double share = 0.0;
+      if (std::istringstream(word) >> share) sum += share;
+    }
+    EXPECT_NEAR(sum, 25.0, 1e-9) << line.str();
+    EXPECT_NEAR(initial, 25.0, 1e-9) << line.str();
+    expect_in(line.str(), "damping of the contact", "damping of the beam");
+    result.error_estimate->totals.pop_back();
+  }
+}
+
+TEST(RunSummary, OfABeamThatStaysElasticStatesTheShareOfFirstYield) {
+  Result result = sample_result();
+  result.used.yield_curvature = 0.5;
+  EnvelopeRow row;
+  row.position = 0.1;
+  row.strain.include(0.25 * 0.5 * paper_case().scene.beam.thickness, 1e-3);
+  result.envelope = {row};
+  Case input = paper_case();
+  input.model.section = SectionKind::exact;
+  const std::string line = line_of(summary_of(input, result), "permanent set");
+  expect_in(line, "none: reaches 50 % of first yield, at 0.1 m");
+}
+
+TEST(RunSummary, PlacesTheLargestForceInTimeAndInItsSubImpact) {
+  Result result = sample_result_with_errors(3);
+  result.sub_impacts[1].peak_force = result.max_force = 9000.0;
+  result.sub_impacts[1].peak_time = 543.2198e-6;
+  expect_in(line_of(summary_of(paper_case(), result), "largest force"),
+            "at 543.2 us, in sub-impact 2");
+}
+
+TEST(RunSummary, KeepsMeshAndWorkForTheVerbose) {
+  const std::string summary = run_summary(paper_case(), sample_result_with_errors(3));
+  const std::string verbose = run_summary(paper_case(), sample_result_with_errors(3), true);
+  EXPECT_EQ(verbose.find(summary), 0u);
+  for (const char* label : {"  model ", "  method ", "  conservation ", "  work "}) {
+    expect_not_in(summary, label);
+    expect_in(verbose, label);
+  }
+}
+
+TEST(RunSummary, WrapsItsLinesAt100ColumnsAndKeepsErrorsWithTheirNumbers) {
+  const std::string summary = run_summary(paper_case(), result_with_energies(), true);
+  std::istringstream lines(summary);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 100u) << line;
+    EXPECT_FALSE(line.ends_with("+-")) << line;
+    EXPECT_TRUE(line.empty() || line.find_first_not_of(" ") != line.find("+-")) << line;
+  }
+}
+
+TEST(RunSummary, CountsOneAsOne) {
+  Result result = sample_result();
+  result.sub_impacts.resize(1);
+  result.work.steps = 1;
+  result.work.right_hand_sides = 1;
+  result.work.roots = 1;
+  const std::string summary = summary_of(paper_case(), result, true);
+  expect_in(summary, "1 in 1 zone:");
+  expect_in(line_of(summary, "zone 1"), ": 1 sub-impact,");
+  expect_in(summary, "1 step, 0 rejected, 1 right-hand side, 1 event;");
+}
+
+TEST(AFailedCheck, IsPlacedInTimeBySummaryFailureMessageAndTable) {
+  Result result = sample_result();
+  result.outcome = {OutcomeKind::inaccurate, 2e-3, "the energy is off", Interval{1e-3, 1.5e-3}};
+  const std::string words =
+      "results up to 1000 us passed every check; first failure between 1000 and 1500 us";
+  expect_in(summary_of(paper_case(), result), words);
+  expect_in(failure_message(paper_case(), result), words);
+  EXPECT_TRUE(sub_impact_table(result).starts_with("inaccurate: " + words));
+  EXPECT_TRUE(sub_impact_table(sample_result()).starts_with("  "));
+}
+
+TEST(Warnings, AreShownInTheSummary) {
+  Result result = sample_result();
+  result.warnings = {"beam.length is 711.2 m"};
+  EXPECT_EQ(line_of(summary_of(paper_case(), result), "warning"),
+            "  warning             beam.length is 711.2 m");
+}
+
+TEST(ATolerance, NamesWhatIsReachedUpToWhichHorizonWithReasonAndKey) {
+  const std::pair<ToleranceOutcome, std::string> all[] = {
+      {{1e-7, true, 0.3e-7, 8e-3, "", ""},
+       "event times within 0.1 us: met to the end (0.03 us reached)"},
+      {{1e-6, true, 0.3e-6, 840e-6, "its mesh is too coarse", "model.segments"},
+       "event times within 1 us: met up to 840 us, 2 of 3 sub-impacts (0.3 us reached); beyond: "
+       "its "
+       "mesh is too coarse; free model.segments"},
+      {{1e-6, false, 2.5e-6, 8e-3, "model.segments is fixed", "model.segments"},
+       "event times within 1 us: not met; 3 us reached to the end; model.segments is fixed; free "
+       "model.segments"},
+      {{1e-6, false, std::numeric_limits<double>::infinity(), 0.0, "", ""},
+       "event times within 1 us: not met; the error reached is not known"}};
+  Result result = sample_result();  // ends: 0.33, 0.6 and, still open, 8 ms
+  expect_not_in(summary_of(paper_case(), result), "  tolerance ");
+  for (const auto& [wish, words] : all) {
+    EXPECT_EQ(tolerance_words(wish, result), words);
+    result.tolerance = wish;
+    const std::string summary = summary_of(paper_case(), result);
+    expect_in(line_of(summary, "tolerance"), words);
+    EXPECT_LT(summary.find("  tolerance "), summary.find("  sub-impacts "));
+  }
+}
+
+// Of the mesh of the case.
+std::string explanation_of(const Case& input) {
+  GivenKeys given;
+  given.in_file = {"model.segments"};
+  return explanation(forecast(input, given, 1));
+}
+
+TEST(Explanation, TellsUnknownsSymmetrySectionStepTolerancesAndContact) {
+  const std::string text = explanation_of(paper_case());
+  expect_in(text, "one half is modelled", "251 of the beam and 1 of the striker",
+            "40 layers: elastic stiffness 0.999375", "0.28");  // critical step, us
+  expect_in(text, "2.948976e+10 N/m^1.5", "0.0156337 mm", "12.47 ms", "runs", "measured");
+}
+
+TEST(Explanation, FollowsTheCase) {
+  const auto with = [](const std::vector<std::string>& settings) {
+    return explanation_of(paper_case_with(settings));
+  };
+  expect_in(with({"beam.yield_stress=inf"}), "elastic, although \"layers\" was requested",
+            "the contact never yields");
+  expect_in(with({}), "501 cells, one half by symmetry; cells of 1.41956 mm\n");
+  expect_in(with({"model.spacing=points"}), "501 points, one half by symmetry; cells of 1.4224 mm",
+            "a beam of 712.6224 mm\n");
+  expect_in(with({"model.symmetry=off"}), "not used (model");
+  expect_in(with({"striker.position=0.4"}), "not symmetric about mid-span");
+  expect_in(with({"contact.law=line", "beam.poisson=0.33", "contact.yield_pressure=by-depth"}),
+            "rigid nose, since contact.striker_modulus is not given; "
+            "indentation from the mid-plane; mean pressure by depth\n");
+}
+
+TEST(Listings, NameEveryKeyMethodAndTable) {
+  const std::string keys = fmt::format("\n{}", key_listing());
+  for (const CaseKey& key : case_keys()) expect_in(keys, fmt::format("\n{} ", key.leaf()));
+  const std::string methods = method_listing();
+  for (const Choice& method : find_case_key("solver.method")->choices) {
+    expect_in(methods, fmt::format("  {} ", method.name));
+  }
+  for (const MethodTable& table : method_tables())
+    expect_in(methods, fmt::format(" {} ", table.name));
+}
+
+TEST(DurationText, ChoosesTheUnit) {
+  EXPECT_EQ(duration_text(12.5e-6), "12.5 us");
+  EXPECT_EQ(duration_text(8e-3), "8 ms");
+  EXPECT_EQ(duration_text(3.25), "3.25 s");
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "subimpact/report/text.h"
+#include "unwrapped.h"
+
+namespace subimpact {
+
+inline std::string summary_of(const Case& input, const Result& result, bool verbose = false) {
+  return unwrapped(run_summary(input, result, verbose));
+}
+
+/// The line of a summary with that label.
+inline std::string line_of(const std::string& summary, const std::string& label) {
+  const auto begin = summary.find("  " + label);
+  if (begin == std::string::npos) return {};
+  return summary.substr(begin, summary.find('\n', begin) - begin);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,216 @@
+// Stated errors of event times against errors known from far more accurate runs.
+
+#include "judgement/coverage.h"
+#include "model/mesh/modes.h"
+#include "paper_run.h"
+#include "study/judgement/mesh_resolution.h"
+#include "subimpact/study/judgement/judgement.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+Result judged_in_time(const Case& input) {
+  return simulate_judged(input, cases_beside_in_time(input), 2);
+}
+
+Case scene(SectionKind section, double end_time) {
+  Case input = paper_run(section, end_time, 501, Method::nystrom);
+  input.solver.rtol = 1e-7;
+  return input;
+}
+
+// Ten scenes unlike each other: speeds, masses, places, thicknesses, sections, methods.
+std::vector<Case> ten_scenes() {
+  std::vector<Case> cases(10, scene(SectionKind::exact, 2.5e-3));
+  cases[0] = scene(SectionKind::elastic, 8e-3);
+  cases[1].end_time = 6.5e-3;
+  cases[2] = scene(SectionKind::layers, 6.3e-3);
+  cases[3].scene.striker.velocity = 8.0;
+  cases[3].end_time = 6e-3;
+  cases[4].scene.striker.velocity = 25.0;
+  cases[4].solver.method = Method::erk;
+  cases[5].scene.striker.position = 0.37;
+  cases[5].model.segments = 300;
+  cases[5].end_time = 4e-3;
+  cases[6] = scene(SectionKind::elastic, 6e-3);
+  cases[6].scene.striker.mass = 0.5;
+  cases[6].solver.method = Method::exponential;
+  cases[7] = scene(SectionKind::elastic, 6e-3);
+  cases[7].scene.beam.thickness = 0.01;
+  cases[7].solver.method = Method::erk;
+  cases[8] = scene(SectionKind::elastic, 4e-3);
+  cases[8].solver.method = Method::central_difference;
+  cases[8].solver.step = 1e-8;
+  cases[9].scene.beam.theory = BeamTheory::euler_bernoulli;
+  cases[9].model.segments = 201;
+  cases[9].end_time = 5e-3;
+  return cases;
+}
+
+TEST(StatedErrors, CoverTheTrueOnesWithoutBeingVain) {
+  Coverage coverage;
+  for (const Case& input : ten_scenes()) {
+    Case accurate = input;
+    accurate.solver = {};
+    const bool elastic = input.model.section == SectionKind::elastic;
+    accurate.solver.method = elastic ? Method::exponential : Method::nystrom;
+    accurate.solver.rtol = elastic ? 1e-12 : 1e-11;
+    coverage.judge(judged_in_time(input), simulate(accurate));
+  }
+  coverage.expect(300, 20.0);
+}
+
+TEST(CasesBesideInTime, DifferInStepOrToleranceAlone) {
+  Case input = scene(SectionKind::elastic, 1e-4);
+  EXPECT_DOUBLE_EQ(cases_beside_in_time(input).at(0).input.solver.rtol, 1e-6);
+  EXPECT_EQ(cases_beside_in_time(input).at(0).input.model.segments, input.model.segments);
+  input.solver.method = Method::central_difference;
+  EXPECT_LT(cases_beside_in_time(input).at(0).input.solver.step.value(),
+            0.71 * resolve(input).settings().step.value());
+}
+
+TEST(CoarseCentralDifferences, NameTheFirstSubImpactTheyAreNotCertainOf) {
+  Case input = scene(SectionKind::layers, 2e-3);
+  input.solver.method = Method::central_difference;
+  input.solver.step = 1e-7;
+  const Result result = judged_in_time(input);
+  ASSERT_TRUE(result.error_estimate->first_unresolved.has_value());
+  EXPECT_GE(*result.error_estimate->first_unresolved, 8u);  // the first zone's start is certain
+  EXPECT_FALSE(result.error_estimate->reason.empty());
+  EXPECT_EQ(result.sub_impacts.front().start_error, 0.0);
+}
+
+// Near misses of whole runs, and what they leave undecided.
+
+Case paper_case(Method method, int segments) {
+  return paper_run(SectionKind::exact, 0.3e-3, segments, method);
+}
+
+// The near miss of this kind closest to a time (s).
+NearMiss nearest_to(double time, NearMissKind kind, const Result& result) {
+  NearMiss best{-1.0, 0.0, kind};
+  for (const NearMiss& here : result.near_misses) {
+    if (here.kind == kind && std::abs(here.time - time) < std::abs(best.time - time)) best = here;
+  }
+  return best;
+}
+
+TEST(NearMissesOfThePaper, On501CellsTheContactStaysSome21NanometresFromOpeningAt203us) {
+  // The paper's scheme, but for the update of its striker.
+  Case input = paper_case(Method::central_difference, 501);
+  input.model.section = SectionKind::layers;
+  input.solver.step = 1e-7;
+  const NearMiss graze = nearest_to(203.2e-6, NearMissKind::opening, simulate(input));
+  EXPECT_NEAR(graze.time, 203.2e-6, 0.1e-6);
+  EXPECT_NEAR(graze.margin, 0.021e-6, 0.002e-6);
+}
+
+TEST(NearMissesOfThePaper, AreTheSameByMethodsWithAndWithoutLongSteps) {
+  const Result result = simulate(paper_case(Method::nystrom, 501));
+  const NearMiss graze = nearest_to(203.2e-6, NearMissKind::opening, result);
+  for (const Method method : {Method::erk, Method::exponential, Method::central_difference}) {
+    Case input = paper_case(method, 501);
+    if (method == Method::central_difference) input.solver.step = 1e-8;
+    const NearMiss same = nearest_to(203.2e-6, NearMissKind::opening, simulate(input));
+    EXPECT_NEAR(same.time, graze.time, 2e-9);
+    EXPECT_NEAR(same.margin, graze.margin, 0.01 * graze.margin);
+  }
+}
+
+// Where sections may yield but do not, `exponential` passes intervals without events in one step,
+// within which it keeps the nearest of the near misses.
+TEST(NearMissesWithinStepsWithoutEvents, AreThoseOfAMethodOfShortSteps) {
+  Case input = paper_case(Method::nystrom, 201);
+  input.scene.beam.yield_stress = 1e10;
+  input.scene.striker.mass = 0.2;
+  input.scene.striker.velocity = 5.0;
+  input.end_time = 8e-3;
+  constexpr double time = 6386.0e-6;
+  const NearMiss expected = nearest_to(time, NearMissKind::closing, simulate(input));
+  input.solver.method = Method::exponential;
+  const Result flown = simulate(input);
+  const NearMiss found = nearest_to(time, NearMissKind::closing, flown);
+  EXPECT_EQ(flown.n_yielded_sections, 0u);
+  EXPECT_NEAR(expected.time, time, 1e-6);
+  EXPECT_NEAR(found.time, expected.time, 0.2e-6);
+  EXPECT_NEAR(found.margin, expected.margin, 0.01 * expected.margin);
+}
+
+TEST(NearMissesOfThePaper, LeaveTheFirstContactUncertainThoughCoarserMeshesAgree) {
+  const Case input = paper_case(Method::central_difference, 501);
+  // All keep the first contact closed, which finer meshes split in two.
+  const Result result = simulate_judged(input, cases_beside(input), 2);
+  EXPECT_NEAR(*result.sub_impacts[0].end, 217e-6, 1e-6);
+  EXPECT_FALSE(*result.sub_impacts[0].certain);
+  EXPECT_EQ(result.error_estimate->first_unresolved, 0u);
+}
+
+// The first-order part of the error of cells with free ends.
+
+// A thick beam, whose second-order error is small from some 1000 cells on.
+Case thick_case(int segments) {
+  Case input = paper_run(SectionKind::elastic, 0.52e-3, segments, Method::central_difference);
+  input.scene.beam.thickness = 0.03;
+  input.scene.striker.mass = 1.0;
+  return input;
+}
+
+// Modes of fine cells beside those of the continuum: the difference is the first-order part.
+TEST(CellsWithFreeEnds, RaiseFrequenciesAsMuchAsTheClosedFormSays) {
+  Case input = thick_case(40001);
+  const Beam& beam = input.scene.beam;
+  const std::vector<double> exact = flexural_frequencies(beam, 24);
+  const double cells = input.model.segments;
+  const NaturalModes modes =
+      free_cell_modes({static_cast<std::size_t>(cells), beam.length / cells, beam.mass_per_length(),
+                       beam.rotary_inertia(), beam.bending_stiffness()},
+                      false, 1);
+  for (const std::size_t k : {5u, 10u, 20u, 23u}) {
+    const double shift = modes.frequencies[k + 2] / exact[k] - 1.0;
+    const double stated = free_end_error(input, 1.0 / exact[k], 1.0);
+    EXPECT_NEAR(stated, shift, 0.15 * shift) << k;
+  }
+}
+
+TEST(MeshErrorsOfFineCellsWithFreeEnds, CoverTheTrueOnesThoughTwoMeshesNearlyAgree) {
+  Case exact = thick_case(2001);
+  exact.model.mesh = MeshKind::hermite;
+  exact.model.elements = 400;
+  exact.solver = {};
+  exact.solver.method = Method::exponential;
+  exact.solver.rtol = 1e-11;
+  const double truth = *simulate(exact).sub_impacts.at(0).end;
+  for (const int segments : {2001, 4001}) {
+    const Case input = thick_case(segments);
+    const Result result = simulate_judged(input, cases_beside(input), 2);
+    const double error = std::abs(*result.sub_impacts.at(0).end - truth);
+    const double stated = result.sub_impacts.at(0).end_error.value();
+    EXPECT_LT(error, stated) << segments;
+    EXPECT_LT(stated, 20.0 * error) << segments;
+  }
+}
+
+TEST(OtherMeshesAndEnds, HaveNoFirstOrderPart) {
+  Case input = thick_case(501);
+  EXPECT_GT(free_end_error(input, 1e-5, 1e-3), 0.0);
+  Case held = input;
+  held.scene.beam.ends = {pinned, clamped};
+  EXPECT_EQ(free_end_error(held, 1e-5, 1e-3), 0.0);
+  Case half_free = held;
+  half_free.scene.beam.ends[0] = free_end;
+  // After many reflections half of two free ends'.
+  EXPECT_NEAR(free_end_error(half_free, 1e-5, 1.0), 0.5 * free_end_error(input, 1e-5, 1.0),
+              0.01 * free_end_error(input, 1e-5, 1.0));
+  // At first one reflection, whether the other end is free or not.
+  EXPECT_DOUBLE_EQ(free_end_error(half_free, 1e-5, 1e-4), free_end_error(input, 1e-5, 1e-4));
+  Case slender = input;
+  slender.scene.beam.theory = BeamTheory::euler_bernoulli;
+  EXPECT_EQ(free_end_error(slender, 1e-5, 1e-3), 0.0);
+  Case elements = input;
+  elements.model.mesh = MeshKind::hermite;
+  EXPECT_EQ(free_end_error(elements, 1e-5, 1e-3), 0.0);
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,292 @@
+// Verdicts on sub-impacts of results made by hand.
+
+#include "subimpact/study/judgement/judgement.h"
+
+#include "one_account.h"
+#include "paper_run.h"
+#include "subimpact/study/judgement/match.h"
+#include "testing.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double um = 1e-6;
+constexpr double us = 1e-6;
+
+SubImpact contact(double start, std::optional<double> end) {
+  SubImpact s;
+  s.start = start;
+  s.end = end;
+  s.start_rate = 2.0;
+  s.end_rate = -2.0;
+  s.max_indentation = 100.0 * um;
+  s.zone = s.subzone = 1;
+  return s;
+}
+
+// Contacts of 100 us that begin 200 us after one another, up to 1 ms.
+Result contacts(int n, double later = 0.0) {
+  Result result;
+  result.outcome.time = 1e-3;
+  for (int i = 0; i < n; ++i) {
+    const double start = 200.0 * us * i + (i > 0 ? later : 0.0);
+    result.sub_impacts.push_back(contact(start, start + 100.0 * us));
+  }
+  return result;
+}
+
+// By `n` runs beside it, all alike.
+Result judged(Result run, const Result& other, std::size_t n = 2) {
+  Case input;
+  input.scene.striker.velocity = 1.0;
+  const std::vector<RunBeside> beside(n, {{input, "time", "another run", 1.0}, other});
+  judge(input, run, beside);
+  return run;
+}
+
+TEST(AJudgement, CallsCertainWhatAgreesAndStatesMoreThanTheDifference) {
+  const Result run = judged(contacts(3), contacts(3, 0.5 * us));
+  EXPECT_TRUE(run.all_certain());
+  EXPECT_EQ(run.sub_impacts[0].start_error, 0.0);
+  EXPECT_NEAR(*run.sub_impacts[1].start_error, 2.4 * 0.5 * us, 1e-12);
+  const Result by_one = judged(contacts(3), contacts(3, 0.5 * us), 1);
+  EXPECT_NEAR(*by_one.sub_impacts[1].start_error, 1.5 * *run.sub_impacts[1].start_error, 1e-12);
+}
+
+TEST(AJudgement, TakesErrorsButNoDoubtFromARunThatDoesNotCountForExistence) {
+  Case input;
+  input.scene.striker.velocity = 1.0;
+  Result run = contacts(3), without = contacts(2, 0.8 * us);
+  std::vector<RunBeside> beside{{{input, "time", "a near run", 1.0}, contacts(3, 0.5 * us)},
+                                {{input, "time", "another one", 1.0}, contacts(3, 0.5 * us)},
+                                {{input, "time", "a far run", 1.0}, without}};
+  beside.back().of.of_existence = false;
+  judge(input, run, beside);
+  EXPECT_TRUE(run.all_certain());
+  EXPECT_NEAR(*run.sub_impacts[1].start_error, 2.4 * 0.8 * us, 1e-12);
+  beside.back().of.of_existence = true;
+  judge(input, run, beside);
+  EXPECT_FALSE(*run.sub_impacts[2].certain);
+}
+
+TEST(AJudgement, DoesNotTakeAgreementByChanceForAccuracyOfAValue) {
+  Result run = contacts(5), other = contacts(5);
+  for (SubImpact& s : other.sub_impacts) s.impulse += 1e-3;
+  other.sub_impacts[2].impulse = run.sub_impacts[2].impulse;
+  const Result found = judged(run, other);
+  EXPECT_NEAR(*found.sub_impacts[2].impulse_error, 2.8e-3, 1e-12);
+}
+
+TEST(AJudgement, HearsNothingFromARunBeyondWhereItStopped) {
+  Result stopped = contacts(2);
+  stopped.outcome = {OutcomeKind::inaccurate, 350.0 * us, "", {}};
+  const Result run = judged(contacts(3), stopped);
+  EXPECT_FALSE(*run.sub_impacts[2].certain);
+  const std::string& reason = run.error_estimate->reason;
+  EXPECT_NE(reason.find("the run with another run stopped before its end, at 350 us"),
+            std::string::npos)
+      << reason;
+}
+
+TEST(AJudgement, HearsOfNoFlightAndOfNoUnfinishedForceFromARunThatStopped) {
+  Result stopped = contacts(3);
+  stopped.outcome = {OutcomeKind::inaccurate, 450.0 * us, "", {}};
+  stopped.sub_impacts[2].end.reset();
+  stopped.sub_impacts[2].peak_force = 1.0;
+  Result run = contacts(3);
+  for (SubImpact& s : run.sub_impacts) s.peak_force = 1000.0;
+  stopped.sub_impacts[0].peak_force = stopped.sub_impacts[1].peak_force = 1000.0;
+  Result found = judged(run, stopped);
+  EXPECT_FALSE(*found.sub_impacts[2].certain);
+  EXPECT_FALSE(found.sub_impacts[2].peak_force_error) << "the other run has not reached it";
+  run.sub_impacts.pop_back();
+  stopped.sub_impacts.pop_back();
+  found = judged(run, stopped);
+  EXPECT_TRUE(*found.sub_impacts[1].certain);
+  EXPECT_FALSE(found.all_certain()) << "nothing is known of the flight to the end";
+  expect_one_account(found);
+}
+
+TEST(AJudgement, IsOneAccountOfCountsVerdictsAndTotals) {
+  Result last_zone = contacts(5);
+  last_zone.sub_impacts[3].zone = last_zone.sub_impacts[4].zone = 2;
+  Result split = contacts(5), fewer = contacts(4), over = contacts(3);
+  split.sub_impacts[4].end = 840.0 * us;
+  split.sub_impacts.push_back(contact(850.0 * us, 900.0 * us));
+  over.no_more_contact = split.no_more_contact = 950.0 * us;
+  Result beside_over = contacts(4);
+  beside_over.no_more_contact = 950.0 * us;
+  const std::pair<Result, Result> pairs[] = {
+      {last_zone, contacts(5)}, {last_zone, split}, {last_zone, fewer}, {fewer, last_zone},
+      {over, beside_over},      {over, over},       {Result(), over},   {Result(), Result()}};
+  for (const auto& [run, other] : pairs) expect_one_account(judged(run, other));
+  // A run that shows errors alone does not change the count of what is certain.
+  Case input;
+  input.scene.striker.velocity = 1.0;
+  std::vector<RunBeside> beside(2, {{input, "time", "a near run", 1.0}, contacts(5)});
+  beside.push_back({{input, "time", "a far run", 1.0}, split});
+  beside.back().of.of_existence = false;
+  judge(input, last_zone, beside);
+  EXPECT_TRUE(last_zone.all_certain());
+  expect_one_account(last_zone);
+}
+
+TEST(AJudgement, OfRealRunsIsOneAccount) {
+  for (const double end : {0.4e-3, 2e-3, 6e-3}) {
+    Case input = paper_run(SectionKind::elastic, end, 61, Method::exponential);
+    expect_one_account(simulate_judged(input, cases_beside(input), 2));
+    expect_one_account(simulate_judged(input, cases_beside_on_given_mesh(input), 2));
+    expect_one_account(simulate_judged(input, cases_beside_by_part(input), 2));
+  }
+}
+
+// Four contacts, the second of which is split in two.
+Result split_contacts() {
+  Result result = contacts(4);
+  const SubImpact split = result.sub_impacts[1];
+  result.sub_impacts[1].end = split.start + 60.0 * us;
+  result.sub_impacts.insert(result.sub_impacts.begin() + 2,
+                            contact(split.start + 70.0 * us, *split.end));
+  return result;
+}
+
+TEST(AJudgement, AsksForCloserAgreementAfterAnUncertainSubImpactOfTheSameSubZone) {
+  Result run = contacts(4), other = split_contacts();
+  run.near_misses = {{450.0 * us, 1.0 * um, NearMissKind::opening}};
+  other.near_misses = {{450.0 * us, 1.3 * um, NearMissKind::opening}};  // an error of 0.75 um
+  EXPECT_FALSE(*judged(run, other).sub_impacts[2].certain);
+  EXPECT_TRUE(*judged(run, other).sub_impacts[3].certain);
+  run.sub_impacts[2].subzone = 2;
+  EXPECT_TRUE(*judged(run, other).sub_impacts[2].certain);
+}
+
+TEST(AJudgement, CallsCertainWhatFollowsAnUncertainSubImpact) {
+  const Result run = judged(contacts(4), split_contacts());
+  EXPECT_FALSE(*run.sub_impacts[1].certain);
+  EXPECT_LT(*run.sub_impacts[1].probability, 1.0);
+  EXPECT_TRUE(*run.sub_impacts[2].certain) << run.sub_impacts[2].doubt;
+  EXPECT_TRUE(*run.sub_impacts[3].certain) << run.sub_impacts[3].doubt;
+  EXPECT_EQ(run.error_estimate->first_unresolved, 1u);
+}
+
+TEST(AJudgement, DoubtsTheLastFlightWhereAnotherRunHasOneMore) {
+  const Result run = judged(contacts(2), contacts(3));
+  EXPECT_EQ(run.n_certain(), 2u);
+  EXPECT_FALSE(run.all_certain());
+  ASSERT_EQ(run.error_estimate->uncertain_flights.size(), 1u);
+  EXPECT_EQ(run.error_estimate->uncertain_flights[0].after, 1u);
+}
+
+TEST(AJudgement, DoubtsAContactThatOnlyOneOfTwoRunsEnds) {
+  Result other = contacts(2);
+  other.sub_impacts[1].end.reset();
+  EXPECT_FALSE(*judged(contacts(2), other).sub_impacts[1].certain);
+  EXPECT_FALSE(*judged(other, contacts(2)).sub_impacts[1].certain);
+  EXPECT_TRUE(*judged(other, other).sub_impacts[1].certain);
+}
+
+TEST(AJudgement, DoubtsANearMissWhoseMarginDiffersByMoreThanIsLeft) {
+  for (const NearMissKind kind : {NearMissKind::opening, NearMissKind::closing}) {
+    const double time = kind == NearMissKind::opening ? 250.0 * us : 350.0 * us;
+    Result run = contacts(3), other = contacts(3);
+    run.near_misses = {{time, 1.0 * um, kind}};
+    other.near_misses = {{time, 1.2 * um, kind}};  // stands for an error of 0.5 um
+    EXPECT_TRUE(judged(run, other).all_certain());
+    other.near_misses[0].margin = 1.5 * um;  // of 1.25 um
+    EXPECT_EQ(judged(run, other).error_estimate->first_unresolved,
+              kind == NearMissKind::opening ? 1u : 2u);
+  }
+}
+
+TEST(AJudgement, CallsContactOverOnlyIfEveryRunProvesItAndEndsAlike) {
+  Result proven = contacts(2);
+  proven.no_more_contact = 1e-3;
+  EXPECT_TRUE(judged(proven, proven).contact_over);
+  EXPECT_FALSE(judged(proven, contacts(2)).contact_over);
+  Result faster = proven;
+  faster.striker_velocity += 0.1;
+  EXPECT_FALSE(judged(proven, faster).contact_over);
+}
+
+TEST(AJudgement, StatesTheErrorOfTheClosestApproachAlsoOfBodiesThatNeverTouch) {
+  for (const int n : {2, 0}) {
+    Result run = contacts(n), other = contacts(n);
+    run.closest_approach = {500.0 * us, 20.0 * um, {}};
+    other.closest_approach = {501.0 * us, 21.0 * um, {}};
+    EXPECT_NEAR(*judged(run, other).closest_approach->error, 2.5 * um, 1e-12) << n;
+    other.closest_approach.reset();  // only the error of an indentation is then known
+    const auto error = judged(run, other).closest_approach->error;
+    ASSERT_TRUE(error);
+    EXPECT_TRUE(n > 0 || !std::isfinite(*error));
+  }
+}
+
+TEST(AJudgement, CallsNothingCertainAtTolerancesOfPercents) {
+  Case input;
+  input.scene.striker.velocity = 1.0;
+  input.solver.method = Method::nystrom;
+  for (const double rtol : {5e-3, 2e-2}) {
+    input.solver.rtol = rtol;
+    Result run = contacts(3);
+    judge(input, run, std::vector<RunBeside>{{{input, "time", "another", 1.0}, contacts(3)}});
+    EXPECT_EQ(run.n_certain(), rtol < 1e-2 ? 3u : 0u);
+    EXPECT_EQ(run.error_estimate->first_unresolved.has_value(), rtol > 1e-2);
+  }
+}
+
+TEST(AJudgement, OfAGivenMeshLeavesTheMeshToTheTotalsAndSaysWhatItChanges) {
+  Result other = contacts(3, 20.0 * us);
+  other.sub_impacts[0].end = 80.0 * us;
+  other.max_force = 2.0;
+  Result run = contacts(3);
+  run.max_force = 1.0;
+  std::vector<RunBeside> beside{{{Case(), "time", "another tolerance", 1.0}, contacts(3)},
+                                {{Case(), "mesh", "another mesh", 1.0}, other}};
+  beside[1].of.of_rows = false;
+  judge(Case(), run, beside);
+  EXPECT_EQ(run.n_certain(), 3u);
+  EXPECT_LT(run.sub_impacts[1].start_error, 1e-15);
+  const auto& totals = run.error_estimate->totals;
+  const auto force = std::ranges::find(totals, "peak_force_N", &NamedTotal::name);
+  ASSERT_NE(force, totals.end());
+  EXPECT_GT(*force->total.error, 1.0);
+  ASSERT_TRUE(run.error_estimate->finer_meshes.has_value());
+  EXPECT_EQ(run.error_estimate->finer_meshes->n_there, 3u);
+  EXPECT_NEAR(*run.error_estimate->finer_meshes->change_of_first_end, 20.0 * us, 1e-12);
+}
+
+TEST(AJudgement, OfThePapersCellsNamesTheOpeningThatFinerMeshesHave) {
+  const Case input = paper_run(SectionKind::exact, 0.4e-3, 501, Method::nystrom);
+  const Result run = simulate_judged(input, cases_beside_on_given_mesh(input), 1);
+  ASSERT_TRUE(run.error_estimate && run.error_estimate->finer_meshes);
+  EXPECT_NEAR(1e6 * *run.sub_impacts[0].end, 217.0, 0.5);
+  EXPECT_NEAR(1e6 * *run.error_estimate->finer_meshes->change_of_first_end, -15.6, 0.5);
+}
+
+// Coarser meshes are refused for a strike so close to an end.
+TEST(CasesBeside, AreFinerWhereTheStrikeIsTooNearAnEndForCoarserMeshes) {
+  Case input = paper_run(SectionKind::elastic, 1e-3, 501, Method::exponential);
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 50;
+  input.scene.striker.position = 0.0108;
+  const std::vector<CaseBeside> all = cases_beside(input);
+  ASSERT_EQ(all.size(), 2u);
+  for (const CaseBeside& beside : all) {
+    EXPECT_EQ(beside.part, "mesh and time");
+    EXPECT_GT(beside.input.model.elements, 50);
+  }
+}
+
+TEST(ANearMiss, PutsTheContactThatOpensOrTheOneAfterTheSeparationInDoubt) {
+  const Result run = contacts(2);
+  const auto of = [&](double time, NearMissKind kind) {
+    return first_in_doubt(run, {time, 1e-7, kind});
+  };
+  EXPECT_EQ(of(50 * us, NearMissKind::opening), 0u);
+  EXPECT_EQ(of(150 * us, NearMissKind::closing), 1u);
+  EXPECT_EQ(of(250 * us, NearMissKind::opening), 1u);
+  EXPECT_EQ(of(350 * us, NearMissKind::closing), 2u);
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,310 @@
+// Stated errors of event times, mesh and layers included, against a far finer computation.
+
+#include "judgement/coverage.h"
+#include "paper_run.h"
+#include "print.h"
+#include "study/judgement/mesh_resolution.h"
+#include "subimpact/case/simulate.h"
+#include "subimpact/study/judgement/judgement.h"
+#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/refinement/within.h"
+#include "yielding_limit.h"
+
+namespace subimpact {
+namespace {
+
+Result judged_by_part(const Case& input, const Progress& progress = {}) {
+  return simulate_judged(input, cases_beside_by_part(input), 2, progress);
+}
+
+Case scene(SectionKind section, double end_time, int segments = 201) {
+  return paper_run(section, end_time, segments, Method::nystrom);
+}
+
+Case on_elements(Case input, int elements) {
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = elements;
+  return input;
+}
+
+// Ten scenes unlike each other in speed, mass, place, thickness, theory, supports, section, mesh
+// and method.
+std::vector<Case> ten_scenes() {
+  std::vector<Case> cases;
+  cases.push_back(scene(SectionKind::elastic, 1.6e-3, 501));
+  cases.push_back(on_elements(scene(SectionKind::elastic, 1.6e-3), 160));
+  cases.push_back(scene(SectionKind::exact, 0.9e-3, 401));
+  cases.back().scene.striker.velocity = 7.0;
+  cases.push_back(scene(SectionKind::layers, 0.9e-3, 401));
+  cases.back().scene.striker.mass = 0.08;
+  cases.push_back(on_elements(scene(SectionKind::elastic, 1.5e-3), 120));
+  cases.back().scene.striker.mass = 0.5;
+  cases.back().solver.method = Method::exponential;
+  cases.push_back(on_elements(scene(SectionKind::elastic, 1.5e-3), 100));
+  cases.back().scene.striker.velocity = 8.0;
+  cases.back().scene.beam.ends = {pinned, pinned};
+  cases.push_back(scene(SectionKind::elastic, 1.5e-3, 301));
+  cases.back().scene.beam.thickness = 0.01;
+  cases.back().scene.beam.ends = {clamped, clamped};
+  cases.back().solver.method = Method::erk;
+  cases.push_back(on_elements(scene(SectionKind::elastic, 1.5e-3), 160));
+  cases.back().scene.striker.position = 0.37;
+  cases.push_back(scene(SectionKind::elastic, 1.2e-3, 401));
+  cases.back().scene.striker.velocity = 25.0;
+  cases.back().solver.method = Method::central_difference;
+  cases.push_back(on_elements(scene(SectionKind::exact, 0.6e-3), 160));
+  cases.back().scene.striker.velocity = 10.0;
+  return cases;
+}
+
+// The same without errors worth the name: the exact section, a mesh many times as fine.
+Case far_finer(const Case& input) {
+  Case accurate = input;
+  const bool elastic = input.model.section == SectionKind::elastic;
+  accurate.solver = {};
+  accurate.solver.method = elastic ? Method::exponential : Method::nystrom;
+  accurate.solver.rtol = 1e-10;
+  if (elastic) {
+    accurate.model.mesh = MeshKind::hermite;
+    accurate.model.elements = 480;
+  } else {
+    accurate.model.mesh = MeshKind::cells;
+    accurate.model.segments = 2001;
+    accurate.model.section = SectionKind::exact;
+  }
+  return accurate;
+}
+
+TEST(StatedErrorsOfTimeAndMesh, CoverTheTrueOnesWithoutBeingVain) {
+  Coverage coverage;
+  for (const Case& input : ten_scenes()) {
+    coverage.judge(judged_by_part(input), simulate(far_finer(input)));
+  }
+  coverage.expect(80, 8.0);
+}
+
+// On elements with hinges, refined runs have hinges and grading, too. Meshes of hinged elements
+// converge unevenly, so that errors from coarser ones are wide.
+TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
+  Coverage coverage;
+  for (const double refinement : {1.0, 4.0}) {
+    for (const int elements : {120, 200}) {
+      Case input = on_elements(scene(SectionKind::exact, 0.84e-3), elements);
+      input.model.strike_refinement = refinement;
+      const Result result = judged_by_part(input);
+      const auto& here = result.sub_impacts;
+      for (std::size_t i = 0; i < std::min<std::size_t>(here.size(), 9); ++i) {
+        if (!*here[i].certain) continue;
+        const auto [start, end] = yielding_limit_us[i];
+        if (i > 0)
+          coverage.judge(1e6 * *here[i].start_error, std::abs(1e6 * here[i].start - start));
+        coverage.judge(1e6 * *here[i].end_error, std::abs(1e6 * *here[i].end - end));
+      }
+      expect_in(result.error_estimate->refined_run, "elements");
+    }
+  }
+  coverage.expect(30, 16.0);
+}
+
+TEST(PartsOfErrors, AddUpAndNameTheirCompanions) {
+  Case input = scene(SectionKind::layers, 0.2e-3, 101);
+  const Result result = judged_by_part(input);
+  ASSERT_EQ(result.error_estimate->parts.size(), 3u);
+  expect_in(result.error_estimate->refined_run, "71 cells", "exact section");
+  const SubImpact& first = result.sub_impacts.front();
+  if (first.end_error) {
+    EXPECT_NEAR(*first.end_error, *first.error_time + *first.error_mesh + *first.error_layers,
+                1e-18);
+  }
+  input.model.section = SectionKind::elastic;
+  EXPECT_EQ(judged_by_part(input).error_estimate->parts.size(), 2u);
+}
+
+TEST(AMeshTooCoarse, NamesTheFirstSubImpactItIsNotCertainOf) {
+  // 501 cells keep the first contact closed, which 1003 split in two.
+  const Result result = judged_by_part(scene(SectionKind::exact, 0.3e-3, 501));
+  ASSERT_TRUE(result.error_estimate->first_unresolved.has_value());
+  EXPECT_EQ(*result.error_estimate->first_unresolved, 0u);
+  const auto mesh =
+      std::ranges::find(result.error_estimate->parts, "mesh", &ErrorEstimate::Part::name);
+  ASSERT_NE(mesh, result.error_estimate->parts.end());
+  EXPECT_EQ(mesh->first_unresolved, result.error_estimate->first_unresolved);
+  EXPECT_FALSE(mesh->reason.empty());
+}
+
+TEST(TimesExtrapolatedToTheMeshLimit, ComeMuchCloserToItThanTheMeshAsked) {
+  const Case input = scene(SectionKind::elastic, 0.25e-3, 501);
+  const Result result = judged_by_part(input);
+  const SubImpact& first = result.sub_impacts.front();
+  ASSERT_TRUE(first.end_mesh_limit.has_value());
+  constexpr double limit = 218.049244e-6;  // tests/data/mesh_limit_elastic.csv
+  EXPECT_LT(std::abs(*first.end_mesh_limit - limit), 0.1 * std::abs(*first.end - limit));
+  EXPECT_LT(std::abs(*first.end_mesh_limit - limit), *first.mesh_limit_error);
+}
+
+TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
+  Case input = scene(SectionKind::elastic, 1e-4, 501);
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 2.0)->input), 1003);
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 0.5)->input), 251);
+  input.model.symmetry = SymmetryUse::off;
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 2.0)->input), 1002);
+  EXPECT_EQ(mesh_order(input), 2);
+  input.model.spacing = CellSpacing::points;
+  EXPECT_EQ(mesh_order(input), 1);
+  EXPECT_EQ(on_other_mesh(input, 2.0)->input.model.spacing, CellSpacing::points);
+  input.model.spacing = CellSpacing::cells;
+  input = on_elements(input, 50);
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 0.5)->input), 26);  // a node at mid-span
+  input.model.symmetry = SymmetryUse::automatic;
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 0.5)->input) % 2, 0);
+  EXPECT_EQ(mesh_order(input), 4);
+  input.model.section = SectionKind::exact;
+  EXPECT_EQ(mesh_order(input), 2);
+  input.model.strike_refinement = 4.0;
+  EXPECT_EQ(on_other_mesh(input, 2.0)->input.model.strike_refinement, 4.0);
+  EXPECT_EQ(on_other_mesh(input, 2.0)->input.model.refined_length, input.model.refined_length);
+  input.model.hinges = HingeUse::off;
+  EXPECT_EQ(mesh_order(input), 1);
+  input.model.elements = 4;
+  EXPECT_FALSE(on_other_mesh(input, 0.5).has_value());
+  input.model.mesh = MeshKind::rigid;
+  EXPECT_FALSE(on_other_mesh(input, 2.0).has_value());
+  input = scene(SectionKind::elastic, 1e-4, 501);
+  input.solver.method = Method::central_difference;
+  input.solver.step = 0.9 * resolve(input).settings().critical_step;
+  const RefinedRun fine = *on_other_mesh(input, 2.0);
+  EXPECT_LT(*fine.input.solver.step, *input.solver.step);
+  EXPECT_NO_THROW(resolve(fine.input));
+  expect_in(fine.description, "step");
+}
+
+TEST(AStoppedRun, StopsItsCompanionsToo) {
+  Case input = scene(SectionKind::elastic, 5e-3, 501);
+  const Result result = judged_by_part(input, [](double) { return false; });
+  EXPECT_EQ(result.outcome.kind, OutcomeKind::stopped);
+  EXPECT_FALSE(result.error_estimate.has_value());
+}
+
+// A steel ball that follows a steel strip for longer than 400 us. Nodes of a coarse mesh are so
+// heavy that the ball rebounds from the one that it meets.
+Case strip(const ModelOptions& model) {
+  Case input;
+  input.scene.beam = {
+      .length = 2.0, .width = 0.02, .thickness = 0.001, .density = 7850.0, .youngs_modulus = 210e9};
+  input.scene.striker.mass = 0.02;
+  input.scene.striker.nose_radius = 0.0085;
+  input.scene.striker.velocity = 2.0;
+  input.scene.contact.kind = ContactKind::hertz;
+  input.scene.contact.striker_modulus = 210e9;
+  input.scene.contact.striker_poisson = input.scene.contact.beam_poisson = 0.3;
+  input.end_time = 0.4e-3;
+  input.solver.method = Method::exponential;
+  input.solver.rtol = 1e-9;
+  input.output.keep_no_rows();
+  input.model = model;
+  return input;
+}
+
+Case strip_of_cells(int n) { return strip({.segments = n}); }
+Case strip_of_elements(int n, double refinement = 1.0) {
+  return strip({.mesh = MeshKind::hermite, .elements = n, .strike_refinement = refinement});
+}
+
+void expect_nothing_is_certain(const Result& result) {
+  ASSERT_TRUE(result.error_estimate);
+  EXPECT_TRUE(result.sub_impacts.front().end);  // which the beam's does not
+  EXPECT_EQ(result.n_certain(), std::size_t{0}) << result.error_estimate->reason;
+  EXPECT_EQ(result.error_estimate->largest_error, 0.0);
+}
+
+TEST(AMeshThatDoesNotResolveTheWavesOfAContact, FindsNothingCertainThoughCoarserOnesAgree) {
+  for (const Case& input : {strip_of_elements(20), strip_of_elements(40), strip_of_cells(301)}) {
+    const Result result = simulate_judged(input, cases_beside(input), 2);
+    expect_nothing_is_certain(result);
+    EXPECT_EQ(result.error_estimate->parts.front().first_unresolved, std::size_t{0});
+    const std::string& reason = result.error_estimate->reason;
+    EXPECT_TRUE(reason.find("bending waves") != reason.npos ||
+                reason.find("as heavy") != reason.npos)
+        << reason;
+    expect_nothing_is_certain(judged_by_part(input));
+  }
+}
+
+TEST(TheShortestContactThatAMeshShows, FallsWithTheSquareOfItsParts) {
+  const double of_cells = shortest_contact_shown(strip_of_cells(101));
+  const double rounding = 1e-9 * of_cells;
+  EXPECT_GT(of_cells, 0.0);
+  EXPECT_NEAR(shortest_contact_shown(strip_of_cells(303)), of_cells / 9.0, rounding);
+  // Elements count as two cells.
+  EXPECT_NEAR(shortest_contact_shown(strip_of_elements(202)), of_cells / 16.0, rounding);
+  EXPECT_NEAR(shortest_contact_shown(strip_of_elements(202, 2.0)), of_cells / 64.0, rounding);
+  EXPECT_EQ(shortest_contact_shown(strip({.mesh = MeshKind::rigid})), 0.0);
+}
+
+// The case, with mesh and method left to the program.
+Case struck_at(double position, double striker_mass, double yield_stress, BeamTheory theory) {
+  Case input = strip({});
+  input.solver = {};
+  input.scene.beam.length = 1.0;
+  input.scene.beam.thickness = 0.02;
+  input.scene.beam.theory = theory;
+  input.scene.beam.poisson = 0.3;
+  input.scene.beam.yield_stress = yield_stress;
+  input.scene.beam.ends = {clamped, free_end};
+  input.scene.striker.position = position;
+  input.scene.striker.mass = striker_mass;
+  return input;
+}
+
+TEST(TheFirstMeshOfAChoice, TakesEveryStrikeAndShowsIt) {
+  for (const double yield_stress : {355e6, std::numeric_limits<double>::infinity()}) {
+    for (const BeamTheory theory :
+         {BeamTheory::euler_bernoulli, BeamTheory::rayleigh, BeamTheory::timoshenko}) {
+      for (const auto& [position, mass] : {std::pair(0.992, 0.5), {0.03, 0.5}, {0.4, 0.04}}) {
+        const Case input = struck_at(position, mass, yield_stress, theory);
+        const Case first = first_choice(input, {}).input;
+        EXPECT_EQ(mesh_doubt(first, resolve(first).settings()), "")
+            << position << ", " << resolve(first).settings().mesh;
+        for (const CaseBeside& beside : cases_beside(first)) {
+          EXPECT_LT(mesh_count(beside.input), mesh_count(first));
+        }
+      }
+    }
+  }
+}
+
+// The mass that rotary inertia makes a blow move at once is the beam's own, whatever the mesh.
+TEST(AFineMeshOfABeamWithRotaryInertia, IsNotDoubtedForTheMassThatTheBeamOpposesToTheStriker) {
+  Case input = struck_at(0.3, 0.07, 355e6, BeamTheory::rayleigh);
+  input.model.segments = 2001;
+  const ResolvedSettings used = resolve(input).settings();
+  EXPECT_GT(used.contact_mass_share, 0.2);
+  EXPECT_EQ(mesh_doubt(input, used), "");
+  input.scene.beam.theory = BeamTheory::euler_bernoulli;
+  EXPECT_LT(resolve(input).settings().contact_mass_share, 0.1);
+  input.model.segments = 41;
+  EXPECT_NE(mesh_doubt(input, resolve(input).settings()), "");
+}
+
+TEST(AStrikeThatNoCoarserMeshTakes, IsNotCertainThoughRunsAtOtherTolerancesAgree) {
+  Case input = struck_at(0.02, 0.5, 355e6, BeamTheory::rayleigh);
+  input.model.segments = 26;
+  const Result result = simulate_judged(input, cases_beside(input), 2);
+  EXPECT_EQ(result.n_certain(), std::size_t{0});
+  expect_in(result.error_estimate->reason, "of the mesh");
+}
+
+TEST(SubImpacts, AreNotAllCertainWhereTheRunComparedWithHasMore) {
+  Result result;
+  result.sub_impacts.resize(2);
+  for (SubImpact& s : result.sub_impacts) s.certain = true;
+  EXPECT_FALSE(result.all_certain());  // without an error estimate
+  result.error_estimate = ErrorEstimate{};
+  EXPECT_TRUE(result.all_certain());
+  result.error_estimate->first_unresolved = 2;
+  EXPECT_EQ(result.n_certain(), std::size_t{2});
+  EXPECT_FALSE(result.all_certain());
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,227 @@
+// Wishes for event times: what the program chooses, and whether the wish is met.
+
+#include "subimpact/study/refinement/within.h"
+#include "elastic_case.h"
+#include "runs.h"
+#include "same_results.h"
+#include "subimpact/study/judgement/event_errors.h"
+#include "subimpact/study/judgement/judgement.h"
+#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+Case wishing(double wish, SectionKind section, double end_time, int segments = 501,
+             Method method = Method::erk) {
+  Case input = paper_run(section, end_time, segments, method);
+  input.accuracy.event_times = wish;
+  return input;
+}
+
+GivenKeys given(std::set<std::string> keys) { return {std::move(keys), {}}; }
+
+TEST(OpenChoices, AreAllOfACaseThatNamesNeitherMeshNorMethod) {
+  EXPECT_TRUE(open_choices(given({"beam.length", "time.end", "model.section"})).all());
+}
+
+TEST(OpenChoices, ASizeFixesItsMeshAndAToleranceItsMethod) {
+  const OpenChoices sized = open_choices(given({"model.segments"}));
+  EXPECT_FALSE(sized.size || sized.mesh);
+  EXPECT_TRUE(sized.method && sized.tolerance);
+  const OpenChoices meshed = open_choices(given({"model.mesh"}));
+  EXPECT_TRUE(meshed.size && !meshed.mesh);
+  const OpenChoices tolerant = open_choices(given({"solver.rtol"}));
+  EXPECT_FALSE(tolerant.tolerance || tolerant.method);
+  const OpenChoices timed = open_choices(given({"solver.method"}));
+  EXPECT_TRUE(timed.tolerance && !timed.method);
+}
+
+TEST(AChoice, IsModesWhereTheBeamIsElasticAndCentralDifferencesWhereItYields) {
+  const ChosenModel elastic = choose_model(paper_run(SectionKind::elastic, 1e-3), {}, false);
+  EXPECT_EQ(elastic.input.model.mesh, MeshKind::hermite);
+  EXPECT_EQ(elastic.input.solver.method, Method::exponential);
+  const ChosenModel yielding = choose_model(paper_run(SectionKind::exact, 1e-3), {}, true);
+  EXPECT_EQ(yielding.input.model.mesh, MeshKind::cells);
+  EXPECT_EQ(yielding.input.solver.method, Method::central_difference);
+}
+
+TEST(AChoice, IsCellsWhereAClampedEndMayYield) {
+  Case input = paper_run(SectionKind::exact, 1e-3);
+  input.scene.beam.ends = {EndSupport::clamped, EndSupport::free};
+  const ChosenModel chosen = choose_model(input, {}, true);
+  EXPECT_EQ(chosen.input.model.mesh, MeshKind::cells);
+  EXPECT_EQ(chosen.input.solver.method, Method::central_difference);
+}
+
+TEST(AChoice, SaysThatContactIsIntegratedWhereSectionsMightYield) {
+  expect_in(choose_model(paper_run(SectionKind::exact, 1e-3), {}, false).reason, "nystrom");
+  expect_not_in(choose_model(paper_run(SectionKind::elastic, 1e-3), {}, false).reason, "nystrom");
+}
+
+TEST(AChoice, LeavesWhatTheCaseFixes) {
+  Case input = paper_run(SectionKind::elastic, 1e-3, 501, Method::erk);
+  input.model.mesh = MeshKind::cells;
+  OpenChoices open;
+  open.method = open.mesh = false;
+  const ChosenModel chosen = choose_model(input, open, false);
+  EXPECT_EQ(chosen.input.model.mesh, MeshKind::cells);
+  EXPECT_EQ(chosen.input.solver.method, Method::erk);
+}
+
+// The limit of fine meshes, from ten times as many elements as the wish needs.
+TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
+  Case finest = paper_run(SectionKind::elastic, 2e-3, 501, Method::exponential);
+  finest.model.mesh = MeshKind::hermite;
+  finest.model.elements = 1600;
+  finest.solver.rtol = 1e-11;
+  const Result limit = simulate(finest);
+  for (const double wish : {1e-5, 1e-6, 1e-7}) {
+    const WithinRun run = simulate_within(wishing(wish, SectionKind::elastic, 2e-3), {});
+    ASSERT_TRUE(run.result.tolerance);
+    EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
+    EXPECT_LE(run.result.tolerance->reached, wish);
+    expect_same_starts(run.result, limit, 1e6 * wish);
+    expect_same_ends(run.result, limit, 1e6 * wish);
+    EXPECT_LT(mesh_count(run.input), 1600);
+  }
+}
+
+// The first separation of the paper's beam that yields: 201.476 +- 0.006 us, from 1600 graded
+// elements and 8007 cells.
+TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
+  const WithinRun run = simulate_within(wishing(0.3e-6, SectionKind::exact, 0.3e-3), {});
+  EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
+  ASSERT_GE(run.result.sub_impacts.size(), 3u);
+  EXPECT_NEAR(*run.result.sub_impacts[0].end, 201.476e-6, 0.3e-6);
+  EXPECT_NEAR(run.result.sub_impacts[1].start, 203.297e-6, 0.3e-6);
+}
+
+TEST(AWish, ChoosesTheSameWhateverTheNumberOfJobs) {
+  const Case input = wishing(1e-6, SectionKind::elastic, 1e-3);
+  const WithinRun alone = simulate_within(input, {});
+  WithinOptions two;
+  two.jobs = 2;
+  const WithinRun beside = simulate_within(input, {}, two);
+  EXPECT_EQ(mesh_count(alone.input), mesh_count(beside.input));
+  expect_same(alone.result, beside.result);
+}
+
+TEST(AWish, LeavesACaseThatRepeatsTheRunBitForBit) {
+  const WithinRun run = simulate_within(wishing(2e-6, SectionKind::exact, 0.25e-3), {});
+  expect_same(simulate(run.input), run.result);
+}
+
+TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
+  const Case input = wishing(1e-9, SectionKind::elastic, 1e-3, 101);
+  OpenChoices open;
+  open.mesh = open.size = false;
+  const WithinRun run = simulate_within(input, open);
+  EXPECT_TRUE(run.result.outcome.completed());
+  ASSERT_TRUE(run.result.tolerance);
+  EXPECT_FALSE(run.result.tolerance->met);
+  EXPECT_EQ(run.result.tolerance->key, "model.segments");
+  EXPECT_EQ(run.input.model.segments, 101);
+}
+
+TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
+  Case input = wishing(1e-9, SectionKind::elastic, 0.4e-3, 501, Method::central_difference);
+  input.solver.step = 1e-7;
+  OpenChoices open;
+  open.method = open.tolerance = false;
+  const WithinRun run = simulate_within(input, open);
+  EXPECT_FALSE(run.result.tolerance->met);
+  EXPECT_EQ(run.result.tolerance->key, "solver.step") << run.result.tolerance->reason;
+  EXPECT_EQ(run.input.solver.step, 1e-7);
+}
+
+TEST(AWish, StopsAtTheLimitOfWork) {
+  Case input = wishing(1e-10, SectionKind::exact, 1e-3);
+  input.accuracy.work_limit = 3e6;
+  double work = 0.0;
+  WithinOptions options;
+  options.finished = [&](const Case&, const Result& result) { work += counted_work(result); };
+  const WithinRun run = simulate_within(input, {}, options);
+  EXPECT_FALSE(run.result.tolerance->met);
+  EXPECT_EQ(run.result.tolerance->key, "accuracy.work_limit");
+  EXPECT_LE(work, 2.0 * 3e6);  // the limit holds for predicted work
+}
+
+TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
+  Case input = wishing(1e-5, SectionKind::elastic, 0.3e-3);  // met by the first level, without rows
+  input.output.interval = 1e-6;
+  input.output.shapes = 1e-5;
+  std::map<std::pair<int, double>, int> runs;  // by mesh and tolerance
+  WithinOptions options;
+  options.finished = [&](const Case& run, const Result&) {
+    ++runs[{run.model.elements, run.solver.rtol}];
+  };
+  const WithinRun run = simulate_within(input, {}, options);
+  EXPECT_EQ(run.result.history.front().time, 0.0);
+  for (const auto& [of, n] : runs) {
+    const bool best = of == std::pair(run.input.model.elements, run.input.solver.rtol);
+    EXPECT_EQ(n, best ? 2 : 1) << of.first << " elements, rtol " << of.second;
+  }
+  ASSERT_TRUE(run.result.error_estimate);
+  const auto moment =
+      std::ranges::find(run.result.error_estimate->totals, "max_moment_Nm", &NamedTotal::name);
+  ASSERT_NE(moment, run.result.error_estimate->totals.end());
+  EXPECT_GT(moment->total.error.value_or(0.0), 0.0);
+  EXPECT_LT(*moment->total.error, 0.05 * moment->total.value);
+}
+
+TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
+  Case input = wishing(1e-6, SectionKind::exact, 0.3e-3);
+  input.scene.beam.yield_stress = 3e9;
+  const WithinRun run = simulate_within(input, {});
+  EXPECT_EQ(run.result.n_yielded_sections, 0u);
+  EXPECT_EQ(run.input.model.mesh, MeshKind::hermite);
+  EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
+}
+
+TEST(CasesBeside, AreCoarserInMeshAndTime) {
+  Case input = paper_run(SectionKind::exact, 1e-3, 401, Method::central_difference);
+  const std::vector<CaseBeside> cases = cases_beside(input);
+  ASSERT_EQ(cases.size(), 3u);
+  EXPECT_EQ(cases[0].input.model.segments, 341);
+  EXPECT_EQ(cases[1].input.model.segments, 281);
+  EXPECT_EQ(cases[2].input.model.segments, 201);
+  EXPECT_TRUE(cases[1].of_existence);
+  EXPECT_FALSE(cases[2].of_existence);
+  EXPECT_EQ(cases[1].part, "mesh and time");
+  EXPECT_GT(*resolve(cases[1].input).settings().step, 1.05 * *resolve(input).settings().step);
+  input.solver.method = Method::erk;
+  input.solver.rtol = 1e-7;
+  EXPECT_NEAR(cases_beside(input).at(1).input.solver.rtol, 1e-6, 1e-12);
+}
+
+TEST(CasesBeside, OfARigidBeamAreCoarserInTimeAlone) {
+  Case input = paper_run(SectionKind::exact, 1e-3);
+  input.model.mesh = MeshKind::rigid;
+  const std::vector<CaseBeside> cases = cases_beside(input);
+  ASSERT_EQ(cases.size(), 1u);
+  EXPECT_EQ(cases[0].part, "time");
+}
+
+TEST(ASearch, ThatIsStoppedReturnsTheLastMeshThatWasFinished) {
+  const Case input = wishing(1e-9, SectionKind::exact, 0.5e-3);
+  WithinOptions options;
+  int n_meshes = 0;
+  options.announce = [&](const std::string&) { ++n_meshes; };
+  options.progress = [&](double) { return n_meshes < 2; };
+  const WithinRun run = simulate_within(input, {}, options);
+  EXPECT_EQ(run.result.outcome.kind, OutcomeKind::stopped);
+  EXPECT_TRUE(run.result.n_certain().has_value());
+  EXPECT_NEAR(run.result.outcome.time, 0.5e-3, 1e-9);
+}
+
+TEST(EventErrors, CallAContactStillOpenWrongWhereThatOfTheReferenceHasEnded) {
+  SubImpact ended;
+  ended.end = 1e-4;
+  SubImpact open;
+  const EventErrors errors = event_errors({open}, {ended});
+  EXPECT_FALSE(errors.all_correspond());
+}
+
+}  // namespace
+}  // namespace subimpact

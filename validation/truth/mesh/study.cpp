@@ -1,0 +1,323 @@
+// What the mesh costs and what it leaves wrong: cells and Hermite elements on the paper's example,
+// elastic and yielding, elements with and without hinges and graded. Writes convergence.csv,
+// limits.csv and the figure beside this file.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/figures/gnuplot.h"
+#include "report/files.h"
+#include "subimpact/case/simulate.h"
+#include "subimpact/study/judgement/event_errors.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace {
+
+using namespace subimpact;
+
+constexpr double us = 1e6;
+constexpr double horizon = 0.84e-3;  // s: sub-impacts 1 to 9 of the elastic beam
+
+// Kinds of meshes side by side.
+enum class Kind { cells, without_hinges, elements, graded };
+
+struct KindName {
+  Kind kind;
+  const char* name;   // in tables and in the figure's data
+  const char* title;  // in the figure's key
+};
+constexpr KindName kinds[] = {
+    {Kind::cells, "cells", "cells"},
+    {Kind::without_hinges, "without_hinges", "elements without hinges"},
+    {Kind::elements, "elements", "elements"},
+    {Kind::graded, "graded", "graded elements"},
+};
+constexpr double refinement = 4.0;  // of graded elements, over the default length
+
+const char* name_of(Kind kind) {
+  for (const KindName& k : kinds) {
+    if (k.kind == kind) return k.name;
+  }
+  return "";
+}
+
+Case example(Kind kind, int count, SectionKind section, double end_time) {
+  Case input;
+  input.scene.beam = {.length = 0.7112,
+                      .width = 0.0163,
+                      .thickness = 0.0075,
+                      .density = 2600.0,
+                      .youngs_modulus = 71.96e9,
+                      .yield_stress = 150e6};
+  input.scene.striker.mass = 0.201;
+  input.scene.striker.nose_radius = 0.01;
+  input.scene.striker.velocity = 15.9;
+  input.model.mesh = kind == Kind::cells ? MeshKind::cells : MeshKind::hermite;
+  (kind == Kind::cells ? input.model.segments : input.model.elements) = count;
+  if (kind == Kind::without_hinges) input.model.hinges = HingeUse::off;
+  if (kind == Kind::graded) input.model.strike_refinement = refinement;
+  input.model.section = section;
+  input.solver.method = Method::nystrom;
+  input.solver.rtol = 1e-9;
+  input.output.interval = 0.0;
+  input.end_time = end_time;
+  return input;
+}
+
+// t* = t_fine + (t_fine - t_coarse)/(r^2 - 1), for cells.
+double extrapolated(double coarse, double fine) { return fine + (fine - coarse) / 3.0; }
+
+// --- error over unknowns ------------------------------------------------------------------------
+
+struct Point {
+  std::string section, mesh;
+  int count;
+  std::size_t unknowns;
+  double error, median, first_error, seconds;  // s
+};
+
+std::vector<Point> converge(SectionKind section, const std::vector<SubImpact>& limit) {
+  std::vector<Point> points;
+  const char* name = section == SectionKind::elastic ? "elastic" : "exact";
+  const auto add = [&](Kind kind, int count) {
+    const auto start = std::chrono::steady_clock::now();
+    const Result result = simulate(example(kind, count, section, horizon));
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    const EventErrors errors = event_errors(result.sub_impacts, limit);
+    points.push_back({name, name_of(kind), count, result.used.n_unknowns, errors.overall(),
+                      errors.median, errors.first, taken.count()});
+    const Point& p = points.back();
+    fmt::print("{:8} {:15} {:6} {:6} {:12.3e} {:12.3e} {:12.3e} {:10.3f}\n", p.section, p.mesh,
+               p.count, p.unknowns, p.error * us, p.median * us, p.first_error * us, p.seconds);
+    std::fflush(stdout);
+  };
+  for (const int n : {251, 501, 1001, 1415, 2001, 2829}) add(Kind::cells, n);
+  const bool elastic = section == SectionKind::elastic;
+  for (const Kind kind : {Kind::without_hinges, Kind::elements, Kind::graded}) {
+    if (elastic && kind == Kind::without_hinges) continue;  // there are none
+    for (const int n : {70, 100, 140, 200, 280, 400, 566, 800}) {
+      if (elastic && n > 400) break;  // the limit's own error shows
+      add(kind, n);
+    }
+  }
+  return points;
+}
+
+std::vector<SubImpact> elastic_limit() {
+  Case finest = example(Kind::elements, 800, SectionKind::elastic, horizon);
+  finest.solver.method = Method::exponential;
+  finest.solver.rtol = 1e-11;
+  return simulate(finest).sub_impacts;
+}
+
+// Extrapolated from two runs on cells.
+std::vector<SubImpact> limit_of(const Result& coarse, const Result& fine) {
+  std::vector<SubImpact> limit = fine.sub_impacts;
+  for (std::size_t i = 0; i < std::min(limit.size(), coarse.sub_impacts.size()); ++i) {
+    const SubImpact& below = coarse.sub_impacts[i];
+    limit[i].start = extrapolated(below.start, limit[i].start);
+    if (limit[i].end && below.end) limit[i].end = extrapolated(*below.end, *limit[i].end);
+  }
+  return limit;
+}
+
+// Unknowns and seconds at which a mesh comes within `wanted`, interpolated in the logarithms.
+std::optional<std::pair<double, double>> needed(const std::vector<Point>& points,
+                                                const std::string& mesh, double wanted) {
+  const Point* before = nullptr;
+  for (const Point& p : points) {
+    if (p.mesh != mesh) continue;
+    if (p.error <= wanted) {
+      if (before == nullptr) return {{static_cast<double>(p.unknowns), p.seconds}};
+      const double share = std::log(before->error / wanted) / std::log(before->error / p.error);
+      const auto between = [&](double a, double b) { return a * std::pow(b / a, share); };
+      return {{between(static_cast<double>(before->unknowns), static_cast<double>(p.unknowns)),
+               between(before->seconds, p.seconds)}};
+    }
+    before = &p;
+  }
+  return std::nullopt;
+}
+
+void print_needed(const std::vector<Point>& points) {
+  for (const double wanted : {1e-6, 1e-7}) {
+    for (const KindName& kind : kinds) {
+      const auto found = needed(points, kind.name, wanted);
+      fmt::print("{:8} within {:.1f} us: {:15} {}\n", points.front().section, wanted * us,
+                 kind.name,
+                 found ? fmt::format("{:.0f} unknowns, {:.2f} s", found->first, found->second)
+                       : std::string("not reached"));
+    }
+  }
+}
+
+// --- limits of the yielding example -------------------------------------------------------------
+
+const std::vector<int> limit_cells{2001, 4001, 8001};
+const std::vector<int> limit_elements{400, 800, 1600};
+
+struct Quantity {
+  const char* name;
+  std::optional<double> (*of)(const Result&);
+};
+
+const SubImpact* zone_edge(const Result& result, int zone, bool last) {
+  const SubImpact* found = nullptr;
+  for (const SubImpact& s : result.sub_impacts) {
+    if (s.zone != zone || (found != nullptr && !last)) continue;
+    found = &s;
+  }
+  return found;
+}
+
+const Quantity quantities[] = {
+    {"first section yields", [](const Result& r) { return r.first_section_yield; }},
+    {"contact yields", [](const Result& r) { return r.first_contact_yield; }},
+    {"first separation", [](const Result& r) { return r.sub_impacts.front().end; }},
+    {"zone 1 ends",
+     [](const Result& r) {
+       const SubImpact* s = zone_edge(r, 1, true);
+       return s ? s->end : std::nullopt;
+     }},
+    {"zone 2 begins",
+     [](const Result& r) {
+       const SubImpact* s = zone_edge(r, 2, false);
+       return s ? std::optional(s->start) : std::nullopt;
+     }},
+    {"zone 2 ends",
+     [](const Result& r) {
+       const SubImpact* s = zone_edge(r, 2, true);
+       return s ? s->end : std::nullopt;
+     }},
+};
+
+// Two sequences of meshes that have nothing in common. The limit is the mean of their finest; it is
+// uncertain by twice the largest distance that one of the two finest of either has from it.
+void write_limits(const std::string& directory, const std::vector<Result>& on_cells,
+                  const std::vector<Result>& on_elements) {
+  std::ofstream csv(directory + "/limits.csv");
+  std::string head = "quantity";
+  for (const int n : limit_cells) head += fmt::format(",cells_{}_us", n);
+  for (const int n : limit_elements) head += fmt::format(",graded_elements_{}_us", n);
+  csv << head << ",limit_us,uncertainty_us\n";
+  fmt::print("\nyielding example (section exact), us: cells, elements, limit\n");
+  for (const Quantity& quantity : quantities) {
+    std::string row = quantity.name;
+    std::vector<double> finest;      // of either sequence
+    std::vector<double> two_finest;  // of both
+    for (const auto* runs : {&on_cells, &on_elements}) {
+      for (std::size_t i = 0; i < runs->size(); ++i) {
+        const double t = quantity.of((*runs)[i]).value_or(NAN) * us;
+        row += fmt::format(",{:.4f}", t);
+        if (i + 2 >= runs->size()) two_finest.push_back(t);
+        if (i + 1 == runs->size()) finest.push_back(t);
+      }
+    }
+    const double limit = 0.5 * (finest[0] + finest[1]);
+    double furthest = 0.0;
+    for (const double t : two_finest) furthest = std::max(furthest, std::abs(t - limit));
+    row += fmt::format(",{:.4f},{:.4f}", limit, 2.0 * furthest);
+    csv << row << "\n";
+    fmt::print("{}\n", row);
+  }
+  std::string impacts;
+  for (const Result& run : on_cells) impacts += fmt::format(" {}", run.sub_impacts.size());
+  impacts += ";";
+  for (const Result& run : on_elements) impacts += fmt::format(" {}", run.sub_impacts.size());
+  fmt::print("sub-impacts:{}\n", impacts);
+}
+
+// --- output -------------------------------------------------------------------------------------
+
+void write_points(const std::string& directory, const std::vector<Point>& points) {
+  std::ofstream csv(directory + "/convergence.csv");
+  csv << "section,mesh,count,unknowns,max_error_us,median_error_us,"
+         "first_separation_error_us,wall_s\n";
+  for (const Point& p : points) {
+    csv << fmt::format("{},{},{},{},{:.4e},{:.4e},{:.4e},{:.4f}\n", p.section, p.mesh, p.count,
+                       p.unknowns, p.error * us, p.median * us, p.first_error * us, p.seconds);
+  }
+}
+
+void draw(const std::string& directory, const std::vector<Point>& points) {
+  std::string script(embedded_file("figures/style.gp"));
+  const auto block = [&](const std::string& section, const std::string& mesh) {
+    script += fmt::format("${}_{} << EOD\n", section, mesh);
+    for (const Point& p : points) {
+      if (p.section == section && p.mesh == mesh) {
+        script += fmt::format("{} {:.6e}\n", p.unknowns, p.error * us);
+      }
+    }
+    script += "EOD\n";
+  };
+  const auto plot = [&](const std::string& section, const std::string& title) {
+    script += fmt::format("set title '{}'\nplot ", title);
+    int style = 0;
+    for (const KindName& kind : kinds) {
+      ++style;
+      if (section == "elastic" && kind.kind == Kind::without_hinges) continue;
+      script += fmt::format("${}_{} using 1:2 with linespoints lw 2 lt {} title '{}', ", section,
+                            kind.name, style, kind.title);
+    }
+    script += "1 with lines dt 2 lc 'grey40' notitle, 0.1 with lines dt 2 lc 'grey40' notitle\n";
+  };
+  for (const char* section : {"elastic", "exact"}) {
+    for (const KindName& kind : kinds) block(section, kind.name);
+  }
+  script +=
+      "set logscale xy\nset format y '10^{%T}'\nset xlabel 'unknowns of the half model'\n"
+      "set ylabel 'largest error of a start or end, us'\nset xrange [60:2000]\n"
+      "set yrange [1e-3:2e2]\nset xtics (100, 200, 500, 1000, 2000)\n"
+      "set key bottom left Left reverse\nset multiplot layout 1,2\n";
+  plot("elastic", "elastic sections");
+  plot("exact", "sections that yield (exact)");
+  script += "unset multiplot\n";
+  draw_figure(directory, "convergence", script, {1100, 480});
+  // The study itself is the script, and the page shows the SVG.
+  for (const char* other : {".gp", ".png"}) {
+    std::filesystem::remove(directory + "/convergence" + other);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const std::string directory = SUBIMPACT_MESH_STUDY;
+  const auto run_all = [](Kind kind, const std::vector<int>& counts) {
+    return std::async(std::launch::async, [kind, counts] {
+      std::vector<Result> runs;
+      for (const int n : counts) {
+        runs.push_back(simulate(example(kind, n, SectionKind::exact, 8e-3)));
+      }
+      return runs;
+    });
+  };
+  fmt::print(
+      "errors of starts and ends before {:.2f} ms, nystrom at rtol 1e-9\n\n"
+      "{:8} {:15} {:>6} {:>6} {:>12} {:>12} {:>12} {:>10}\n",
+      1e3 * horizon, "section", "mesh", "count", "unkn.", "largest, us", "median, us", "first, us",
+      "wall, s");
+  std::vector<Point> points = converge(SectionKind::elastic, elastic_limit());
+  const Result coarse = simulate(example(Kind::cells, 4003, SectionKind::exact, horizon));
+  const Result fine = simulate(example(Kind::cells, 8007, SectionKind::exact, horizon));
+  const std::vector<Point> yielding = converge(SectionKind::exact, limit_of(coarse, fine));
+  fmt::print("\n");
+  print_needed(points);
+  print_needed(yielding);
+  points.insert(points.end(), yielding.begin(), yielding.end());
+  write_points(directory, points);
+  draw(directory, points);
+  auto on_cells = run_all(Kind::cells, limit_cells);
+  auto on_elements = run_all(Kind::graded, limit_elements);
+  write_limits(directory, on_cells.get(), on_elements.get());
+}
