@@ -15,6 +15,7 @@
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/report/text.h"
 #include "subimpact/simulate/options.h"
+#include "subimpact/study/model/scene_choice.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact::app {
@@ -115,7 +116,7 @@ LoadedCase CaseOptions::load(const std::vector<Override>& by_options) const {
                          "--opening " + opening});
   }
   overrides.insert(overrides.end(), by_options.begin(), by_options.end());
-  LoadedCase loaded = read_case_file(file, overrides);
+  LoadedCase loaded = read_case_file(file, overrides, choose_scene);
   if (may_repeat || loaded.value.strikes == 1) return loaded;
   throw CaseFileError(loaded.message(InvalidCase(
       "repeat.strikes", fmt::format("is {}, but only `subimpact run` strikes more than once; "

@@ -18,6 +18,7 @@ struct RunOptions {
   std::string directory;
   std::string continued;  // empty, or a directory
   bool all = false;       // rows of the table
+  std::string model_errors = "on";
   bool verbose = false;
   std::string error_bars;  // empty: from coarser meshes; "off", "time" or "all"
   Jobs jobs = n_processors();
@@ -69,6 +70,7 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
     return &files;
   };
   request.resolved = std::move(resolved);
+  request.model_errors = options.model_errors == "on";
   return run_as_asked(loaded.value, loaded.given, std::move(request));
 }
 
@@ -245,6 +247,10 @@ void add_run(CLI::App& program, int& status) {
                 "from other runs for each of time, mesh and layers; takes about 4 times as long. "
                 "--error-bars=time: of the integration in time only, about twice as long")
       ->check(CLI::IsMember({"all", "time", "off"}));
+  command
+      .add_option("--model-errors", options.model_errors,
+                  "off: no estimate of how far the body itself may be from the model")
+      ->check(CLI::IsMember({"on", "off"}));
   add_jobs_option(command, options.jobs);
   command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
   command.add_flag("--verbose", options.verbose,

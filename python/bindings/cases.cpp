@@ -10,6 +10,7 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
+#include "subimpact/study/model/scene_choice.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace subimpact::python {
@@ -69,7 +70,7 @@ LoadedCase load(const std::string& text, const std::string& name,
                 const std::vector<Setting>& settings) {
   std::vector<Override> overrides;
   for (const auto& [key, value, origin] : settings) overrides.push_back({key, value, origin});
-  return read_case_text(text, name, overrides);
+  return read_case_text(text, name, overrides, choose_scene);
 }
 
 std::string explain(const LoadedCase& loaded) {
@@ -121,6 +122,8 @@ void bind_cases(py::module_& module) {
              }
              return names;
            })
+      .def("chosen", [](const LoadedCase& loaded) { return loaded.chosen; })
+      .def("why_chosen", [](const LoadedCase& loaded) { return loaded.value.model_choice; })
       .def("notes", &LoadedCase::notes)
       .def("doubts", [](const LoadedCase& loaded) { return doubtful_units(loaded.value); })
       .def("explain", &explain)

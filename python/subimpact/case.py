@@ -168,6 +168,14 @@ class Case:
         """The keys that the case gives, with their values; all others have their defaults."""
         return {key: self[key] for key in self._load().given()}
 
+    def chosen(self) -> dict[str, Any]:
+        """Theory and contact law where the case leaves them open: the model that the scene needs."""
+        return {key: self[key] for key in self._load().chosen()}
+
+    def why_chosen(self) -> str:
+        """In words; empty if nothing was chosen."""
+        return self._load().why_chosen()
+
     def as_dict(self) -> dict[str, Any]:
         """The values of all keys; None for those left open."""
         return {key: self[key] for key in _KEYS}

@@ -24,6 +24,7 @@ def run(
     jobs: int = 1,
     progress: Callable[[float], object] | None = None,
     timeout: float | None = None,
+    model_errors: bool = True,
     out: str | os.PathLike[str] | None = None,
 ) -> Result:
     """Simulates a case, as `subimpact run` does.
@@ -36,6 +37,7 @@ def run(
     jobs        threads for the runs of error estimates; results do not depend on it
     progress    called up to twenty times per second with the simulated time, s; False ends the run
     timeout     ends the run after some seconds
+    model_errors  whether errors of the model itself are estimated too: `Result.summary["model_errors"]`
     out         directory for the files of the run: `Result.write`
 
     Other Python threads go on meanwhile. A run that is ended by `progress`, `timeout` or Ctrl-C
@@ -53,7 +55,7 @@ def run(
     check_progress(progress)
     check_timeout(timeout)
     directory = None if out is None else path_text(out, OutputError)
-    result = Result(_core.run(case._load(), error_bars, jobs, progress, timeout))
+    result = Result(_core.run(case._load(), error_bars, jobs, progress, timeout, model_errors))
     if directory is not None:
         result.write(directory)
     return result

@@ -7,6 +7,7 @@
 
 #include "case/meshes.h"
 #include "study/refinement/refinement.h"
+#include "subimpact/study/model/scene_choice.h"
 
 namespace subimpact {
 namespace {
@@ -51,15 +52,19 @@ Advice chosen_mesh(const GivenKeys& given, const Result& result) {
 
 }  // namespace
 
-bool is_notable(const NeglectedShear& shear) {
-  return !shear.with ||
-         std::abs(*shear.with - shear.without) >= least_change_by_shear * shear.without;
+// Whether shear, which the run leaves out, moves the end of its first contact notably.
+static bool lacks_shear(const Result& result) {
+  if (!result.model_errors || !result.model_errors->value.parting) return false;
+  const double least = least_change_by_shear * *result.model_errors->value.parting;
+  return std::ranges::any_of(result.model_errors->parts, [&](const ModelErrors::Part& part) {
+    return part.name == "shear" && part.change.parting.value_or(least) >= least;
+  });
 }
 
 std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Result& result) {
   std::vector<Advice> all;
   if (!result.outcome.completed()) return all;
-  if (result.neglected_shear && is_notable(*result.neglected_shear)) {
+  if (lacks_shear(result)) {
     all.push_back({{{"--set", "beam.theory=timoshenko"}},
                    result.work.all_seconds,
                    "includes the shear that is left out here"});

@@ -131,7 +131,7 @@ TEST_F(SensitivityCommand, ChoosesTheMeshOfACaseThatLeavesItOpen) {
   expect_in(run_in(directory, {"sensitivity", "open.toml", "--set", "beam.yield_stress=inf", "--by",
                                "striker.velocity"})
                 .output,
-            "Hermite");
+            "spectral");
 }
 
 TEST_F(SensitivityCommand, RefusesKeysByName) {

@@ -3,6 +3,7 @@
 
 #include "address_sanitizer.h"
 #include "process.h"
+#include "subimpact/io/case_file.h"
 #include "subimpact/io/output_directory.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
@@ -300,8 +301,13 @@ FinishedRun open_run(const TemporaryDirectory& directory, const Words& more,
   return read_results(directory.path / "here");
 }
 
+// The paper's own model of its scene.
+const Words papers_model = {"--set", "beam.theory=rayleigh", "--set", "contact.law=foundation"};
+
 TEST_F(RunWithin, MeetsAWishAndLeavesTheChoiceInItsFiles) {
-  const FinishedRun run = open_run(directory, {"--within", "1us"});
+  Words words = {"--within", "1us"};
+  words.insert(words.end(), papers_model.begin(), papers_model.end());
+  const FinishedRun run = open_run(directory, words);
   ASSERT_TRUE(run.result.tolerance);
   EXPECT_TRUE(run.result.tolerance->met);
   EXPECT_EQ(run.result.tolerance->asked, 1e-6);
@@ -349,8 +355,25 @@ TEST_F(ARun, ThatEndsWithinTheFirstContactStatesNoErrorOfItsEnd) {
       "sub-impact 1: its contact lasts 30 us and the mesh shows none shorter");
 }
 
+TEST_F(ARun, OfACaseThatLeavesItsModelOpenChoosesItAndTheCaseItWritesIsThatModel) {
+  const FinishedRun run = open_run(directory, {"--error-bars=time"});
+  EXPECT_TRUE(run.input.scene.beam.shears());
+  EXPECT_EQ(run.input.scene.contact.kind, ContactKind::line);
+  expect_in(run.input.model_choice, "beam.theory = \"timoshenko\"", "contact.law = \"line\"");
+  ASSERT_TRUE(run.result.model_errors);
+  EXPECT_GT(*run.result.model_errors->error.peak_force, 0.0);
+  directory.write("written.toml", case_file_text(run.input));
+  run_in(directory,
+         {"run", "written.toml", "--out", "again", "--error-bars=time", "--model-errors=off"});
+  const FinishedRun again = read_results(directory.path / "again");
+  EXPECT_FALSE(again.result.model_errors);
+  EXPECT_EQ(again.input.model_choice, "");
+  EXPECT_EQ(again.result.sub_impacts.front().end, run.result.sub_impacts.front().end);
+  EXPECT_EQ(again.result.max_force, run.result.max_force);
+}
+
 TEST_F(ARun, OfACaseThatFixesNothingHasErrorBarsAndItsOwnMesh) {
-  const FinishedRun run = open_run(directory, {});
+  const FinishedRun run = open_run(directory, papers_model);
   ASSERT_TRUE(run.result.error_estimate);
   EXPECT_FALSE(run.result.tolerance);
   const SubImpact& first = run.result.sub_impacts.front();

@@ -46,6 +46,15 @@ def command(*arguments):
                           capture_output=True, text=True)
 
 
+def has_rows(store):
+    """Whether a sweep that may still be running has stored a row."""
+    try:
+        with sqlite3.connect(f"file:{store}?mode=ro", uri=True) as connection:
+            return connection.execute("SELECT count(*) FROM rows").fetchone()[0] > 0
+    except sqlite3.OperationalError:  # not there yet, or being written
+        return False
+
+
 def test_a_plan_expands_the_last_axis_fastest(population):
     assert len(population) == 40
     assert population.keys() == ["striker.mass", "striker.velocity", "beam.thickness"]
@@ -296,9 +305,8 @@ def test_a_signal_to_coordinator_and_workers_ends_a_sweep_of_a_large_plan(plan_f
     plan_file.write_text(text)
     process = python("-m", "subimpact.sweep", plan_file, "--out", tmp_path / "out", "--workers", 2,
                      start_new_session=True)
-    while process.poll() is None and not any(tmp_path.glob("out/sweep.sqlite")):
-        time.sleep(0.01)
-    time.sleep(1.0)
+    while process.poll() is None and not has_rows(tmp_path / "out" / "sweep.sqlite"):
+        time.sleep(0.05)
     os.killpg(process.pid, number)
     output = process.communicate(timeout=60)
     assert process.returncode == 128 + number, output

@@ -76,6 +76,9 @@ struct CaseParts {
 /// A case: the options of its run, and what they apply to.
 struct Case : Options {
   std::string title;
+  /// Why theory and contact law are what they are, if they were chosen
+  /// (study/model/scene_choice.h); no key.
+  std::string model_choice;
   Scene scene;
   ModelOptions model;
   /// Relative standard deviations of numbers of the scene, by key: "striker.velocity". They do not

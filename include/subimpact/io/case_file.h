@@ -3,6 +3,7 @@
 /// Case files (TOML), the settings that override them, and what identifies and describes a case.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ class LoadedCase {
  public:
   Case value;
   GivenKeys given;
+  std::vector<std::string> chosen;  ///< keys that a KeyChooser has set
 
   LoadedCase(std::string path, std::map<std::string, std::string> places)
       : path_(std::move(path)), places_(std::move(places)) {}
@@ -43,14 +45,20 @@ class LoadedCase {
   std::map<std::string, std::string> places_;  // key -> "file:line:column" or an override's origin
 };
 
+/// Sets keys of a case that are not given, and returns their names; called before the case is
+/// checked.
+using KeyChooser = std::function<std::vector<std::string>(Case& input, const GivenKeys& given)>;
+
 /// Reads a case file, replaces its values by the overrides, and checks the whole case. Every
 /// problem found is reported at once. Throws CaseFileError.
 LoadedCase read_case_file(const std::filesystem::path& path,
-                          const std::vector<Override>& overrides = {});
+                          const std::vector<Override>& overrides = {},
+                          const KeyChooser& choose = {});
 
 /// read_case_file() for a text; messages name `name` as the file.
 LoadedCase read_case_text(const std::string& text, const std::string& name,
-                          const std::vector<Override>& overrides = {});
+                          const std::vector<Override>& overrides = {},
+                          const KeyChooser& choose = {});
 
 /// A case as the text of a case file: every key that has a value, under its table, with its unit.
 /// read_case_text() reads the same case back.

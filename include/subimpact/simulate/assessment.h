@@ -102,10 +102,25 @@ struct ErrorEstimate : ErrorOfTimes {
   std::vector<ZoneTotals> zones;
 };
 
-/// Ends of the first contact on one coarse mesh, without and with shear.
-struct NeglectedShear {
-  double without = 0.0;        ///< s
-  std::optional<double> with;  ///< s; none: above three times `without`
+/// Four numbers of a strike that an engineer asks for; none: not there, or not known.
+struct StrikeFigures {
+  std::optional<double> parting;           ///< s: end of the first contact parted by more than 1 um
+  std::optional<double> peak_force;        ///< N
+  std::optional<double> striker_velocity;  ///< m/s, at the end
+  std::optional<double> permanent_set;     ///< m
+};
+
+/// What the model leaves out (study/model/model_errors.h): estimates of how far the body itself
+/// lies from the exact solution of the model's equations.
+struct ModelErrors {
+  struct Part {
+    std::string name;           ///< "contact law"
+    std::string compared;       ///< with what, in words
+    StrikeFigures change = {};  ///< magnitudes; none: not known
+  };
+  StrikeFigures value;      ///< of the run
+  StrikeFigures error;      ///< the sum of the parts that are known
+  std::vector<Part> parts;  ///< that apply to the case
 };
 
 /// The outcome of a tolerance on the event times (starts and ends of sub-impacts).
@@ -138,10 +153,10 @@ struct Predictability {
 
 /// The assessment of a whole run.
 struct Assessment {
-  std::optional<ErrorEstimate> error_estimate;    ///< with error bars
-  std::optional<NeglectedShear> neglected_shear;  ///< where it was estimated
-  std::optional<ToleranceOutcome> tolerance;      ///< of runs with a tolerance on event times
-  std::optional<Predictability> predictability;   ///< of a case with scatter
+  std::optional<ErrorEstimate> error_estimate;   ///< with error bars
+  std::optional<ModelErrors> model_errors;       ///< where they were estimated
+  std::optional<ToleranceOutcome> tolerance;     ///< of runs with a tolerance on event times
+  std::optional<Predictability> predictability;  ///< of a case with scatter
   /// Why mesh and method were chosen, if the program chose them; otherwise empty.
   std::string choice;
 

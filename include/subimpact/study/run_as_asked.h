@@ -25,6 +25,7 @@ struct RunRequest : WithinOptions {
   std::optional<ErrorBars> error_bars;
   /// The case, if it is already resolved; used by a run without error bars.
   std::optional<ResolvedRun> resolved;
+  bool model_errors = true;  ///< whether those are estimated (study/model/model_errors.h)
 };
 
 /// The choices that the program makes: those that the case leaves open, if the case has
@@ -33,23 +34,14 @@ struct RunRequest : WithinOptions {
 std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& given,
                                         const std::optional<ErrorBars>& error_bars);
 
-/// Poisson's ratio of a beam for which the case has none.
-inline constexpr double usual_poisson = 0.3;
-
-/// The effect of shear on the first contact of a run whose theory leaves shear out, from two
-/// further runs up to its end, with and without shear, on the same coarse cells, undamped
-/// (usual_poisson unless given). The effect is large where shear merges contacts. Nothing if the
-/// theory has shear, on a rigid beam or a user-defined mesh, or if no first contact ended.
-std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& result);
-
-/// Runs a case as `subimpact run` does, with error estimates and the effect of neglected shear,
-/// unless error bars are off; simulate(Case) is one run on the mesh of the case. `given`: the keys
-/// that the caller has chosen; the program chooses mesh and method if no such key is among them.
-/// Throws InvalidCase. A run from an earlier state (CaseParts::start) has the errors of the whole:
-/// the runs beside the earlier run are continued too. Without them no errors are stated. With
-/// repeat.strikes = N the beam is struck N times, on the mesh of the first strike, and comes to
-/// rest before each strike unless strike.rest is false. The result is that of the last strike, with
-/// a row of each in Result::strikes.
+/// Runs a case as `subimpact run` does, with error estimates and errors of the model, unless
+/// error bars are off or `model_errors` is false; simulate(Case) is one run on the mesh of the
+/// case. `given`: the keys that the caller has chosen; the program chooses mesh and method if no
+/// such key is among them. Throws InvalidCase. A run from an earlier state (CaseParts::start) has
+/// the errors of the whole: the runs beside the earlier run are continued too. Without them no
+/// errors are stated. With repeat.strikes = N the beam is struck N times, on the mesh of the first
+/// strike, and comes to rest before each strike unless strike.rest is false. The result is that of
+/// the last strike, with a row of each in Result::strikes.
 WithinRun run_as_asked(const Case& input, const GivenKeys& given = {}, RunRequest request = {});
 
 /// The first of the runs that run_as_asked() makes of a case, by default; without a reason where
@@ -69,9 +61,6 @@ struct Advice {
   double seconds = 0.0;  ///< expected, from time and counted work of this run
   std::string gain;      ///< "shows whether contact is over"
 };
-
-/// Whether shear moves the end of the first contact by half a per cent or more.
-bool is_notable(const NeglectedShear& shear);
 
 /// Useful further runs, the most useful first. `input` and `given`: the case as it was run, and the
 /// keys that the user gave. The options are not checked against the case.

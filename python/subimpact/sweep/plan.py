@@ -66,6 +66,13 @@ class Plan:
         self._population.check(self.case._load())
         #: of the samples
         self._base = self.case if self.samples is None else _without_scatter(self.case)
+        self._base = self._base.changed(self._chosen())
+
+    def _chosen(self) -> dict[str, Any]:
+        """The model that the base case's scene needs, so that it is the same in all cases. Where the
+        sweep changes the contact or the theory itself, these stay open."""
+        tables = {key.split(".")[0] for key in self.keys() if key.startswith(("contact.", "beam.theory"))}
+        return {key: self.case[key] for key in self.case._load().chosen() if key.split(".")[0] not in tables}
 
     def _check_numbers(self) -> None:
         if self.error_bars not in (None, "off", "time", "all"):

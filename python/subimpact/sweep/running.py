@@ -58,7 +58,7 @@ class Sweep:
     def _table(self, name: str) -> Any:
         import pandas
 
-        return pandas.read_csv(self.directory / name)
+        return pandas.read_csv(self.directory / name, float_precision="round_trip")
 
     def __repr__(self) -> str:
         missing = f", {self.n_missing} missing" if self.n_missing else ""

@@ -69,7 +69,7 @@ def run_case(plan: Plan, number: int) -> Row:
     case = plan.case_of(number)
     identity = identity_of(plan, number, case)
     try:
-        result = _core.run(case._load(), plan.error_bars, 1, None, plan.timeout)
+        result = _core.run(case._load(), plan.error_bars, 1, None, plan.timeout, False)
         if result.interrupted:
             raise KeyboardInterrupt
         if result.timed_out:

@@ -127,7 +127,7 @@ class Reader {
     }
   }
 
-  LoadedCase finish() {
+  LoadedCase finish(const KeyChooser& choose) {
     std::map<std::string, std::string> places;
     Case read;
     for (const CaseKey& key : case_keys()) {
@@ -147,6 +147,7 @@ class Reader {
     LoadedCase loaded(name_, std::move(places));
     loaded.value = std::move(read);
     loaded.given = given_keys();
+    if (problems_.empty() && choose) loaded.chosen = choose(loaded.value, loaded.given);
     if (problems_.empty()) {
       try {
         check(loaded.value);
@@ -364,7 +365,7 @@ std::string LoadedCase::message(const InvalidCase& error) const {
 }
 
 LoadedCase read_case_text(const std::string& text, const std::string& name,
-                          const std::vector<Override>& overrides) {
+                          const std::vector<Override>& overrides, const KeyChooser& choose) {
   if (text.size() > largest_case) {
     fail<CaseFileError>(
         "{}: is larger than {} bytes; allowed: a case file (TOML), which has some 1000; give the "
@@ -384,13 +385,13 @@ LoadedCase read_case_text(const std::string& text, const std::string& name,
     throw CaseFileError(malformed(text, name, error));
   }
   for (const Override& setting : overrides) reader.apply(setting);
-  return reader.finish();
+  return reader.finish(choose);
 }
 
-LoadedCase read_case_file(const std::filesystem::path& path,
-                          const std::vector<Override>& overrides) {
+LoadedCase read_case_file(const std::filesystem::path& path, const std::vector<Override>& overrides,
+                          const KeyChooser& choose) {
   refuse_other_files(path);
-  return read_case_text(read_text(path), path.string(), overrides);
+  return read_case_text(read_text(path), path.string(), overrides, choose);
 }
 
 }  // namespace subimpact

@@ -103,6 +103,11 @@ FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& lo
     read_json(directory / state_name, files.text(state_name), "the state of a run",
               "; run the case again", read);
   });
+  for (const std::string& name : loaded.chosen) {
+    const CaseKey& key = *find_case_key(name);
+    if (const auto value = key.get(run.input)) key.set(loaded.value, *value);
+  }
+  loaded.value.model_choice = run.input.model_choice;
   const auto is_given = [&](const CaseKey& key) { return loaded.given.contain(key.name); };
   const auto gives_table = [&](const std::string& table) {
     return std::ranges::any_of(

@@ -121,9 +121,21 @@ const Record<Predictability> predictability_record = {
     {"zones", "", &Predictability::zones, zone_scatter_record},
     {"striker_velocity_scatter_m_per_s", "standard deviation of the velocity at the end", &Predictability::striker_velocity_scatter}};
 
-const Record<NeglectedShear> shear_record = {
-    {"first_contact_end_without_s", "on coarse cells", &NeglectedShear::without},
-    {"first_contact_end_with_s", "the same with shear; null: more than three times as late", &NeglectedShear::with}};
+const Record<StrikeFigures> figures_record = {
+    {"parting_s", "", &StrikeFigures::parting},
+    {"peak_force_N", "", &StrikeFigures::peak_force},
+    {"striker_velocity_m_per_s", "", &StrikeFigures::striker_velocity},
+    {"permanent_set_m", "", &StrikeFigures::permanent_set}};
+
+const Record<ModelErrors::Part> model_part_record = {
+    {"name", "what the model leaves out", &ModelErrors::Part::name},
+    {"compared_with", "where its change comes from", &ModelErrors::Part::compared},
+    {"change", "of the four numbers; null: not known", [](auto& part) -> auto& { return part.change; }, figures_record}};
+
+const Record<ModelErrors> model_record = {
+    {"value", "of the run: parting_s, end of the first contact parted by more than 1 um; peak_force_N; striker_velocity_m_per_s at the end; permanent_set_m", [](auto& errors) -> auto& { return errors.value; }, figures_record},
+    {"error", "how far the body itself may be from them: the sum of the parts that are known", [](auto& errors) -> auto& { return errors.error; }, figures_record},
+    {"parts", "", &ModelErrors::parts, model_part_record}};
 
 const Record<ClosestApproach> approach_record = {
     {"time_s", "when", &ClosestApproach::time, Form::from_zero},
@@ -352,7 +364,8 @@ Record<DescribedRun> make_run_record() {
       {"wish_met", "whether accuracy.event_times was met; null: none was asked for", &tolerance_met, &read_tolerance_met},
       {"wish", "outcome of accuracy.event_times", result(&Result::tolerance), tolerance_record},
       {"choice", "why mesh and method are what they are", result(&Result::choice)},
-      {"neglected_shear", "end of the first contact without and with shear", result(&Result::neglected_shear), shear_record},
+      {"model_choice", "why theory and contact law are what they are, if they were chosen", [](auto& run) -> auto& { return run.input->model_choice; }},
+      {"model_errors", "errors of the model itself; null: not estimated", result(&Result::model_errors), model_record},
       {"warnings", "warnings about results that passed all checks", result(&Result::warnings)},
 
       {"counts.sub_impacts", "number of sub-impacts", [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},

@@ -10,6 +10,7 @@
 #include "model/contact/line_contact.h"
 #include "model/contact/power_contact.h"
 #include "model/contact/sphere_contact.h"
+#include "numerics/bracketed_root.h"
 
 namespace subimpact {
 namespace {
@@ -229,6 +230,32 @@ std::optional<double> contact_yield_velocity(const Scene& scene, const ContactLa
     energy = yielding.work_up_to(yielding.yield_threshold({}));
   }
   return std::sqrt(2.0 * energy / scene.striker.mass);
+}
+
+std::optional<ContactPressure> contact_pressure(const Scene& scene, double force) {
+  const Contact& contact = scene.contact;
+  const bool is_line = contact.kind == ContactKind::line;
+  const bool is_ball = contact.kind == ContactKind::sphere || contact.kind == ContactKind::hertz;
+  if (contact.stiffness || !(is_line || is_ball) || !scene.striker.nose_radius) return {};
+  if (is_ball && !gap_radii(scene).is_circle()) return {};
+  const double radius = *scene.striker.nose_radius, modulus = 1.0 / compliance_of(scene);
+  const double width = scene.beam.outer_solid().width;
+  const double elastic = is_line
+                             ? std::sqrt(force * modulus / (M_PI * radius * width))
+                             : std::cbrt(6.0 * force * modulus * modulus / radius / radius) / M_PI;
+  const auto nose = is_line ? MeanPressure::Nose::cylinder : MeanPressure::Nose::ball;
+  const std::optional<MeanPressure> mean = mean_pressure_of(scene, nose);
+  if (!mean) return ContactPressure{elastic, false, never};
+  const double first = (is_line ? 0.5 : 2.0 / M_PI) * modulus * mean->first_yield / radius;
+  if (elastic <= first) return ContactPressure{elastic, false, first};
+  const auto carried = [&](double a) {
+    return (is_line ? 2.0 * width * a : M_PI * a * a) * mean->beyond_it(a).at;
+  };
+  const auto lacking = [&](double a) { return carried(a) - force; };
+  double wide = 2.0 * mean->first_yield;
+  while (lacking(wide) < 0.0) wide *= 2.0;
+  return ContactPressure{mean->beyond_it(root_in(lacking, mean->first_yield, wide)).at, true,
+                         first};
 }
 
 std::span<const BuiltInContactLaw> built_in_contact_laws() { return laws; }

@@ -48,4 +48,14 @@ std::shared_ptr<const ContactLaw> make_contact_law(const Scene& scene);
 /// nose radius that of its material. Nothing where nothing yields or too little is given.
 std::optional<double> contact_yield_velocity(const Scene& scene, const ContactLaw& law);
 
+/// The pressure under a round nose of known moduli.
+struct ContactPressure {
+  double at_force;  ///< Pa: the largest one, in the middle; once the contact has yielded, the mean
+  bool is_mean;
+  double first_yield;  ///< Pa: a largest pressure; infinite where nothing that yields is given
+};
+/// At the largest force (N) of a strike. Nothing for laws without such a pressure: with a given
+/// stiffness, columns, a touch in an ellipse.
+std::optional<ContactPressure> contact_pressure(const Scene& scene, double force);
+
 }  // namespace subimpact

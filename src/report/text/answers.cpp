@@ -16,8 +16,10 @@
 namespace subimpact {
 namespace {
 
-constexpr std::size_t most_zones = 4;                // with a line of their own
-constexpr int digits_of_energies = 4;                // at most
+constexpr std::size_t most_zones = 4;      // with a line of their own
+constexpr int digits_of_energies = 4;      // at most
+constexpr double doubtful_pressure = 1e9;  // Pa
+constexpr Measure as_stress{"Pa", 6, 3};
 constexpr int least_digits_of_energies = 2;          // whatever their errors
 constexpr double openings_counted[] = {1e-6, 1e-5};  // m
 
@@ -281,6 +283,26 @@ Answer dent(const Result& result) {
           "pressed in by at most " + deepest};
 }
 
+// Under a nose of known moduli; doubted where it is high and the metal's strength is not given.
+void add_contact_pressure(const Case& input, const Result& result, std::vector<Answer>& answers) {
+  if (input.parts.contact_law) return;
+  const auto pressure = contact_pressure(input.scene, result.max_force);
+  if (!pressure) return;
+  Answer answer{"contact pressure", plain_text(pressure->at_force, as_stress),
+                pressure->is_mean ? "the mean" : "in the middle"};
+  if (std::isfinite(pressure->first_yield)) {
+    answer.note +=
+        fmt::format("; yields from {} in the middle", plain_text(pressure->first_yield, as_stress));
+    const double stress = input.scene.beam.yield_stress;
+    if (std::isfinite(stress)) {
+      answer.value += fmt::format(", {:.3g} of beam.yield_stress", pressure->at_force / stress);
+    }
+  } else if (pressure->at_force > doubtful_pressure) {
+    answer.note += ": few metals bear it without a dent; give beam.yield_stress";
+  }
+  answers.push_back(std::move(answer));
+}
+
 // Shares of the energy at the end, which add up as they are printed: each is the difference of two
 // rounded sums. One below its error is joined to the one before it.
 Answer energy(const Result& result) {
@@ -333,6 +355,40 @@ Answer energy(const Result& result) {
   return {"energy", with_unit(with_decimals(initial, decimals), unit), words + ", at the end"};
 }
 
+// The parts of an error of the model, the largest first; those that are not known at the end.
+std::string part_words(const ModelErrors& errors, std::optional<double> StrikeFigures::*figure,
+                       const ReadUnit& unit) {
+  std::vector<const ModelErrors::Part*> parts;
+  for (const ModelErrors::Part& part : errors.parts) parts.push_back(&part);
+  const auto size = [&](const auto* part) { return -(part->change.*figure).value_or(-1.0); };
+  std::ranges::stable_sort(parts, {}, size);
+  std::string words;
+  for (const ModelErrors::Part* part : parts) {
+    const std::optional<double>& change = part->change.*figure;
+    if (change == 0.0) continue;
+    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", part->name,
+                         change ? with_digits(unit.per_si * *change, 2) : "not known");
+  }
+  return words;
+}
+
+// How far the body itself may be from the exact solution of the equations.
+void add_model_errors(const Result& result, std::vector<Answer>& answers) {
+  if (!result.model_errors) return;
+  const ModelErrors& errors = *result.model_errors;
+  const auto add = [&](const char* name, std::optional<double> StrikeFigures::*figure,
+                       const Measure& measure) {
+    const std::optional<double>& value = errors.value.*figure;
+    if (!value) return;
+    answers.push_back({name, text_of({std::abs(*value), errors.error.*figure}, measure),
+                       part_words(errors, figure, unit_for(std::abs(*value), measure))});
+  };
+  add("of the body: parting", &StrikeFigures::parting, as_time);
+  add("  largest force", &StrikeFigures::peak_force, as_force);
+  add("  final velocity", &StrikeFigures::striker_velocity, as_velocity);
+  add("  permanent set", &StrikeFigures::permanent_set, as_length);
+}
+
 }  // namespace
 
 std::string contact_over_words(const Result& result) {
@@ -358,20 +414,30 @@ std::string contact_over_words(const Result& result) {
 std::vector<Answer> answers(const Case& input, const Result& result) {
   const bool is_in_contact = !result.sub_impacts.empty() && !result.sub_impacts.back().end;
   std::vector<Answer> all = {strike(input, result)};
+  if (!input.model_choice.empty()) all.push_back({"model", "chosen", input.model_choice});
   all.push_back({"sub-impacts",
                  fmt::format("{} in {}", result.sub_impacts.size(),
                              counted(summarise_zones(result.sub_impacts).size(), "zone")) +
                      certain_words(result),
                  parted_words(input, result) + error_words(result)});
+  if (result.error_estimate && result.error_estimate->joined) {
+    const auto& [opening, n, n_certain] = *result.error_estimate->joined;
+    all.push_back({"joined", fmt::format("{}, {} certain", counted(n, "sub-impact"), n_certain),
+                   fmt::format("contacts parted by less than {0:.4g} um as one (--opening "
+                               "{0:.4g}um)",
+                               um * opening)});
+  }
   all.push_back(restitution(input, result));
   if (!result.sub_impacts.empty()) {
     all.push_back(largest_force(result));
     add_impulses(result, all);
     all.push_back(dent(result));
+    add_contact_pressure(input, result, all);
   }
   if (result.used.section != "rigid") all.push_back(permanent_set(input, result));
   add_reactions(result, all);
   if (result.final_energies.taken_up() > 0.0) all.push_back(energy(result));
+  add_model_errors(result, all);
   all.push_back({"contact over",
                  result.contact_over ? "yes"
                  : is_in_contact     ? "no"

@@ -272,6 +272,9 @@ std::string description(const Case& input, const ResolvedSettings& used,
 std::string explanation(const RunForecast& forecast) {
   const ChosenModel& first = forecast.first;
   std::string text = description(first.input, resolve(first.input).settings(), forecast);
+  if (!first.input.model_choice.empty()) {
+    text += fmt::format("Choice of the model\n  {}\n", first.input.model_choice);
+  }
   if (first.reason.empty()) return text;
   return text + fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", first.reason);
 }

@@ -34,20 +34,6 @@ std::string labelled(const std::string& label, const std::string& words) {
   return text + '\n';
 }
 
-// How far shear, which bending theory leaves out, moves the end of the first contact.
-std::string neglected_shear_words(const NeglectedShear& shear) {
-  const std::string without = time_text(shear.without, 3);
-  const std::string number = without.substr(0, without.find(' '));
-  const std::string change =
-      !is_notable(shear) ? fmt::format(", at {}, by less than 0.5 %", without)
-      : shear.with       ? fmt::format(" from {} to {}", number, time_text(*shear.with, 3))
-                         : fmt::format(" from {} to beyond three times that", without);
-  return fmt::format(
-      "shear, which on a coarse mesh moves the end of the first contact{}; beam.theory = "
-      "\"timoshenko\" has it",
-      change);
-}
-
 std::string time_or_never(const std::optional<double>& time) {
   return time ? time_text(*time) : "never";
 }
@@ -109,18 +95,10 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
   if (result.error_estimate && !error_of_total(result, "impulse_Ns")) {
     line("errors", "a run beside did not complete, so errors of totals are not known");
   }
-  if (result.error_estimate && result.error_estimate->joined) {
-    const auto& [opening, n, n_certain] = *result.error_estimate->joined;
-    line("joined",
-         fmt::format("contacts parted by less than {0:.4g} um as one (--opening {0:.4g}um): "
-                     "{1}, {2} certain",
-                     um * opening, counted(n, "sub-impact"), n_certain));
-  }
   if (result.error_estimate && result.error_estimate->finer_meshes) {
     line("finer meshes", finer_meshes_words(result));
   }
   if (result.predictability) line("predictable", predictability_words(result));
-  if (result.neglected_shear) line("left out", neglected_shear_words(*result.neglected_shear));
   for (const std::string& warning : result.warnings) line("warning", warning);
   return verbose ? text + details(input, result) : text;
 }

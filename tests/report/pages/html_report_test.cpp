@@ -241,10 +241,17 @@ TEST(HtmlReport, ShowsNoDigitBelowTheErrorOfWhatARunEndsWith) {
   expect_not_in(unknown.substr(0, unknown.find("<details>")), "5.769");  // above stored digits
 }
 
-TEST(HtmlReport, StatesWhatTheTheoryLeavesOut) {
+TEST(HtmlReport, StatesWhatTheModelLeavesOutTheLargestPartFirst) {
   FinishedRun run = small_run();
-  run.result.neglected_shear = {200e-6, 210e-6};
-  expect_in(page_of(run), "shear", "from 200 to");
+  ModelErrors& errors = run.result.model_errors.emplace();
+  errors.value.parting = 200e-6;
+  errors.error.parting = 10.5e-6;
+  errors.parts = {{"width", "", {0.5e-6, {}, {}, {}}},
+                  {"hinge length", ""},
+                  {"shear", "", {10e-6, {}, {}, {}}}};
+  run.input.model_choice = "a cylinder across a solid beam";
+  expect_in(page_of(run), "200 ± 11 µs", "shear 10, width 0.50, hinge length not known",
+            "a cylinder across");
 }
 
 TEST(HtmlReport, ShowsTheScatterOfTimesAndTheHorizon) {

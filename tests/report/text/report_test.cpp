@@ -209,10 +209,11 @@ TEST(Advice, OnSearchesThatTheLimitOfWorkEndedRaisesIt) {
 
 TEST(Advice, OnShearIsTimoshenkosTheoryWhereShearMatters) {
   Result result = result_that_took_a_while(3);
-  result.neglected_shear = {200e-6, 200.5e-6};
+  result.model_errors.emplace().value.parting = 200e-6;
+  result.model_errors->parts = {{"shear", "", {0.5e-6, {}, {}, {}}}};
   EXPECT_EQ(advice_on(result), "");
-  for (const std::optional<double> with : {std::optional(210e-6), std::optional<double>()}) {
-    result.neglected_shear->with = with;
+  for (const std::optional<double> change : {std::optional(10e-6), std::optional<double>()}) {
+    result.model_errors->parts.front().change.parting = change;
     EXPECT_EQ(advice_on(result), "--set beam.theory=timoshenko\n--set beam.poisson=0.3\n");
   }
 }
@@ -236,7 +237,7 @@ TEST(RunSummary, CountsSubImpactsByOpeningAndSaysWhatJoiningLeavesOfThem) {
   result.error_estimate->joined = {1e-6, 2, 2};
   const std::string summary = summary_of(input, result);
   expect_in(summary, "1 certain: 2 parted by more than 1 um, 1 by more than 10 um; ",
-            "parted by less than 1 um as one (--opening 1um): 2 sub-impacts, 2 certain\n");
+            "2 sub-impacts, 2 certain: contacts parted by less than 1 um as one (--opening 1um)\n");
   input.output.opening = 2e-6;
   expect_in(summary_of(input, result),
             "contacts parted by less than 2 um joined, 1 parted by more than 10 um; ");

@@ -16,6 +16,7 @@ import matplotlib.pyplot as plt
 import pandas as pd
 
 import checks
+import coverage
 from contacts import alongside, counted, joined, totals
 
 HERE = Path(__file__).resolve().parent
@@ -104,6 +105,17 @@ class Runs:
             command += ["--set", f"{key}={value}"]
         return read_beam(self.folder(f"{scene}/{name}", command))
 
+    def open_model(self, scene, settings):
+        """The summary of a run that chooses its model, and the error (s) of its first parting."""
+        command = ["subimpact", "run", str(case_file(scene)), "--quiet"]
+        for key, value in settings.items():
+            command += ["--set", f"{key}={value}"]
+        place = self.folder(f"{scene}/open", command)
+        events = pd.read_csv(place / "events.csv")
+        parted = events[events.opening_m > 1e-6].iloc[0]
+        error = parted.end_error_s if parted.end_error_s == parted.end_error_s else 0.0
+        return json.loads((place / "summary.json").read_text()), error
+
     def stored(self, name):
         place = HERE / "stored" / name
         return read_continuum(place) if place.exists() else None
@@ -186,6 +198,16 @@ def gather(runs, scene, bodies, beams, anew):
     return found
 
 
+def coverage_table(runs):
+    bodies = {}
+    for scene, (kind, _) in coverage.SCENES.items():
+        for name, (program, options) in SCENES[scene][0].bodies.items():
+            if name == kind:
+                bodies[scene] = (solid(runs, scene, name, options, False) if program == "solid"
+                                 else runs.continuum(scene, name, program, options))
+    return coverage.table(bodies, runs.open_model)
+
+
 def picture(found, scene, until):
     """Force over time, one panel per body."""
     figure, panels = plt.subplots(len(found), sharex=True, sharey=True, figsize=(8, 1.25 * len(found) + 0.6))
@@ -218,6 +240,7 @@ def main():
     parser.add_argument("--bin", type=Path, required=True, help="where the programs are")
     parser.add_argument("--solid", nargs="+", choices=[*SCENES, SOFT], default=[], metavar="SCENE")
     parser.add_argument("--checks", action="store_true")
+    parser.add_argument("--coverage", action="store_true")
     parser.add_argument("--update", action="store_true")
     asked = parser.parse_args()
     runs = Runs(asked.bin, asked.bin.parent / "continuum")
@@ -228,7 +251,9 @@ def main():
     texts = {}
     if asked.checks:
         texts["checks"] = checks.table(runs)
-    for scene in asked.scenes or asked.solid or ([] if asked.checks else [*SCENES]):
+    if asked.coverage:
+        texts["coverage"] = coverage_table(runs)
+    for scene in asked.scenes or asked.solid or ([] if asked.checks or asked.coverage else [*SCENES]):
         parts = []
         for table in SCENES[scene]:
             found = gather(runs, scene, table.bodies, table.beams, scene in asked.solid)

@@ -1,0 +1,32 @@
+#pragma once
+
+/// The model of a strike, where the case leaves it open: theory of the beam and law of contact by
+/// what the scene needs.
+
+#include <string>
+#include <vector>
+
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+
+/// Chooses theory and contact law where `given` leaves them open, by the scene alone: the same with
+/// any mesh, method, tolerance and error bars. Returns the keys that were chosen.
+///
+///   - contact.law by the nose and the section: a cylinder on a solid flat beam is a `line`, a ball
+///     a `sphere` (from the mid-plane where the beam bends); what these do not describe gets the
+///     half-space, or `foundation`. Without striker.nose it is a cylinder.
+///   - contact.yield_pressure by the depth of the dent, where the law has it.
+///   - beam.theory with shear, unless two coarse runs show that it moves the end of the first
+///     contact parted by more than 1 um by less than 5 us (accuracy.event_times, if smaller), and
+///     largest force, final velocity and set by less than 1 %; and on meshes that cannot shear.
+///   - beam.poisson 0.3, where theory or law need it.
+///
+/// Case::model_choice says why. simulate(Case) computes the case as it is, with the defaults of the
+/// structs (no shear, `foundation`): call this first for what `subimpact run` computes.
+std::vector<std::string> choose_scene(Case& input, const GivenKeys& given);
+
+/// Poisson's ratio of a beam for which the case has none.
+inline constexpr double usual_poisson = 0.3;
+
+}  // namespace subimpact

@@ -1,0 +1,60 @@
+#include "study/model/coarse_strike.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/meshes.h"
+#include "study/method_choice.h"
+#include "subimpact/case/simulate.h"
+
+namespace subimpact {
+
+Case coarse_case(const Case& input, int cells, double end) {
+  Case coarse = input;
+  coarse.title.clear();
+  coarse.scatter.clear();
+  coarse.strikes = 1;
+  static_cast<Options&>(coarse) = {};
+  coarse.end_time = end;
+  coarse.stop = StopRule::no_more_contact;
+  coarse.accuracy.energy = 1.0;  // seen in the difference of two such runs, if it is large
+  coarse.output.interval = coarse.output.shapes = end;
+  const bool bends = descriptor_of(input.model.mesh).bends;
+  coarse.solver.method = Method::nystrom;
+  if (bends) {
+    coarse.model = {};
+    coarse.model.section = input.model.section;
+    coarse.model.layers = input.model.layers;
+    coarse.model.mesh = default_mesh(coarse);
+    coarse.model.segments = 2 * (cells / 2) + 1;  // an odd number has a centre at mid-span
+    coarse.model.elements = std::max(cells / 4, 4);
+    if (coarse.model.mesh == MeshKind::cells) coarse.solver.method = Method::central_difference;
+  }
+  coarse.solver.method = method_for_damping(coarse, coarse.solver.method);
+  return coarse;
+}
+
+std::optional<Result> coarse_run(const Case& input) {
+  try {
+    return simulate(input);
+  } catch (const InvalidCase&) {  // of numbers that only such a mesh cannot hold
+    return std::nullopt;
+  }
+}
+
+StrikeFigures figures_of(const Result& result) {
+  StrikeFigures figures;
+  for (const SubImpact& s : result.sub_impacts) {
+    if (figures.parting || !s.end || s.opening.value_or(0.0) <= hair_opening) continue;
+    figures.parting = s.end;
+  }
+  figures.peak_force = result.max_force;
+  figures.striker_velocity = result.striker_velocity;
+  for (const EnvelopeRow& row : result.envelope) {
+    const double set = std::abs(row.set_from_supports);
+    figures.permanent_set = std::max(figures.permanent_set.value_or(0.0), set);
+  }
+  return figures;
+}
+
+}  // namespace subimpact

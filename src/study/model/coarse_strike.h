@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "subimpact/case/case.h"
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// Openings (m) up to which two contacts count as one where models are compared: thinner ones come
+/// and go with mesh, law and theory.
+inline constexpr double hair_opening = 1e-6;
+
+/// The scene on about so many equal cells, up to `end` (s) or until no contact can follow: by
+/// central differences, at the strike on an end and with damping by what takes them. Without rows,
+/// but with the set at the end. A rigid beam has no cells.
+Case coarse_case(const Case& input, int cells, double end);
+
+/// Nothing where the case cannot be run.
+std::optional<Result> coarse_run(const Case& input);
+
+StrikeFigures figures_of(const Result& result);
+
+}  // namespace subimpact

@@ -1,0 +1,257 @@
+#include "subimpact/study/model/scene_choice.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "study/model/coarse_strike.h"
+
+namespace subimpact {
+namespace {
+
+constexpr int cells_to_choose = 121;
+constexpr double first_horizon = 32.0;  // in ResolvedSettings::contact_time
+constexpr double growth_of_horizon = 4.0;
+constexpr double longest_horizon = 512.0;  // of a test of the law alone
+constexpr double least_move = 5e-6;        // s, of the first parting
+constexpr double least_change = 0.01;      // of the other figures
+constexpr double scale_of_velocity = 0.1;  // of that of the first touch, at least
+
+bool is_allowed(const Case& input) {
+  try {
+    check(input);
+    return true;
+  } catch (const InvalidCase&) {
+    return false;
+  }
+}
+
+struct LawChoice {
+  ContactKind kind;
+  std::optional<IndentationFrom> from;  // of laws that can be measured from either
+  const char* reason;
+};
+
+constexpr auto mid = IndentationFrom::mid_plane, half = IndentationFrom::half_space;
+constexpr LawChoice across[] = {
+    {ContactKind::line, {}, "a cylinder across a solid beam"},
+    {ContactKind::foundation, {}, "no better law for a cylinder on this section"}};
+constexpr LawChoice ball[] = {
+    {ContactKind::sphere, mid, "a ball on a solid beam that bends"},
+    {ContactKind::sphere, half, "a ball; the half-space knows nothing of bending walls"},
+    {ContactKind::hertz, mid, "a ball on a solid beam"},
+    {ContactKind::hertz, half, "a ball; the half-space knows nothing of bending walls"}};
+constexpr LawChoice others[] = {
+    {ContactKind::foundation, {}, "no better law for a ball on this section"},
+    {ContactKind::linear, {}, "as given"}};
+
+// The case with the law, by depth where that goes; nothing if given keys say otherwise.
+std::optional<Case> with_law(const Case& input, const GivenKeys& given, const LawChoice& choice) {
+  Case chosen = input;
+  Contact& contact = chosen.scene.contact;
+  const bool measures = choice.from.has_value() && !contact.stiffness;
+  if (given.contain("contact.law") && contact.kind != choice.kind) return std::nullopt;
+  if (given.contain("contact.indentation") && measures && contact.indentation != choice.from) {
+    return std::nullopt;
+  }
+  contact.kind = choice.kind;
+  if (measures) contact.indentation = choice.from;
+  if (!given.contain("contact.yield_pressure")) {
+    const bool yields = choice.kind == ContactKind::line || choice.kind == ContactKind::sphere;
+    contact.pressure_by_depth =
+        yields && contact.is_from_mid_plane() && std::isfinite(input.scene.beam.yield_stress);
+  }
+  return is_allowed(chosen) ? std::optional(chosen) : std::nullopt;
+}
+
+struct PossibleLaw {
+  Case input;
+  const char* reason;
+};
+
+// All laws for the nose that the case allows, the best first.
+std::vector<PossibleLaw> possible_laws(const Case& input, const GivenKeys& given) {
+  std::vector<PossibleLaw> found;
+  const auto add = [&](std::span<const LawChoice> laws) {
+    for (const LawChoice& law : laws) {
+      if (law.from == mid && !descriptor_of(input.model.mesh).bends) continue;
+      if (const auto chosen = with_law(input, given, law)) found.push_back({*chosen, law.reason});
+    }
+  };
+  if (input.scene.striker.nose != NoseShape::sphere) add(across);
+  if (input.scene.striker.nose != NoseShape::cylinder) add(ball);
+  add(others);
+  return found;
+}
+
+// A case with shear, on the mesh that follows if that is open.
+std::optional<Case> with_shear(const Case& input, const GivenKeys& given) {
+  Case sheared = input;
+  sheared.scene.beam.theory = BeamTheory::timoshenko;
+  for (const char* key : {"model.spacing", "model.hinges", "model.strike_refinement",
+                          "model.refined_length", "model.sections_per_element"}) {
+    if (given.contain(key)) return std::nullopt;
+  }
+  if (!given.contain("model.mesh")) {
+    sheared.model.mesh =
+        given.contain("model.elements") ? MeshKind::spectral : default_mesh(sheared);
+  }
+  return is_allowed(sheared) ? std::optional(sheared) : std::nullopt;
+}
+
+enum class Shear { moves, does_not, not_tested, law_ends };
+
+struct ShearTest {
+  Shear shear;
+  std::string words;
+};
+
+double relative(double one, double other, double scale = 0.0) {
+  const double size = std::max({std::abs(one), std::abs(other), scale});
+  return size > 0.0 ? std::abs(one - other) / size : 0.0;
+}
+
+std::string microseconds(double time) { return fmt::format("{:.3g} us", 1e6 * time); }
+
+// Whether shear moves the parting, or, in runs to the end, another figure; in words.
+std::optional<std::string> moved(const Case& input, const Result& without, const Result& with,
+                                 bool at_end) {
+  const StrikeFigures a = figures_of(without), b = figures_of(with);
+  const double least = std::min(least_move, input.accuracy.event_times.value_or(least_move));
+  const double first = a.parting.value_or(without.outcome.time);
+  const double second = b.parting.value_or(with.outcome.time);
+  if ((a.parting || b.parting) && std::abs(first - second) >= least) {
+    return fmt::format(
+        "without shear the first contact parted by more than 1 um ends {} on a coarse mesh, with "
+        "shear {}",
+        a.parting ? "at " + microseconds(first) : "later than that",
+        b.parting ? "at " + microseconds(second) : "later than that");
+  }
+  const double touch = scale_of_velocity * std::abs(with.first_touch.striker);
+  const auto change = [&](const char* what, double by) -> std::optional<std::string> {
+    if (by < least_change) return std::nullopt;
+    return fmt::format("shear changes the {} by {:.2g} % on a coarse mesh", what, 100.0 * by);
+  };
+  auto found = change("largest force", relative(*a.peak_force, *b.peak_force));
+  if (found || !at_end) return found;
+  found = change("final velocity", relative(*a.striker_velocity, *b.striker_velocity, touch));
+  if (found) return found;
+  return change("permanent set",
+                relative(a.permanent_set.value_or(0.0), b.permanent_set.value_or(0.0), 1e-9));
+}
+
+// Whether a law ends within the first contacts of a coarse run.
+bool law_ends(const Case& input) {
+  try {
+    Case coarse = coarse_case(input, cells_to_choose, input.end_time);
+    coarse.end_time =
+        std::min(input.end_time, longest_horizon * resolve(coarse).settings().contact_time);
+    const auto run = coarse_run(coarse);
+    return run && run->outcome.kind == OutcomeKind::left_validity;
+  } catch (const InvalidCase&) {
+    return false;
+  }
+}
+
+// Two runs, without and with shear, over longer and longer times until a difference shows.
+ShearTest test_shear(const Case& without, const Case& with) {
+  Case coarse = coarse_case(with, cells_to_choose, with.end_time);
+  double end = with.end_time;
+  try {
+    end = first_horizon * resolve(coarse).settings().contact_time;
+  } catch (const InvalidCase&) {
+    return {Shear::not_tested, "a coarse mesh cannot test whether shear matters"};
+  }
+  end += with.scene.striker.gap > 0.0 && with.scene.striker.velocity > 0.0
+             ? with.scene.striker.first_touch()
+             : 0.0;
+  for (;; end *= growth_of_horizon) {
+    end = std::min(end, with.end_time);
+    const auto a = coarse_run(coarse_case(without, cells_to_choose, end));
+    const auto b = coarse_run(coarse_case(with, cells_to_choose, end));
+    for (const auto& run : {a, b}) {
+      if (run && run->outcome.kind == OutcomeKind::left_validity) return {Shear::law_ends, {}};
+      if (!run || !run->outcome.completed()) {
+        return {Shear::not_tested, "a coarse mesh cannot test whether shear matters"};
+      }
+    }
+    const bool at_end = end == with.end_time;
+    if (const auto words = moved(with, *a, *b, at_end)) return {Shear::moves, *words};
+    if (at_end) break;
+  }
+  return {Shear::does_not,
+          "on a coarse mesh shear moves the first parting by less than 5 us, and force, final "
+          "velocity and set by less than 1 %"};
+}
+
+std::string law_words(const Case& chosen, const char* reason) {
+  const Scene& scene = chosen.scene;
+  std::string words = fmt::format("contact.law = {}: {}",
+                                  to_text(*find_case_key("contact.law")->get(chosen)), reason);
+  if (!scene.striker.nose && scene.nose() == NoseShape::cylinder) {
+    words += " (a nose not given is a cylinder)";
+  }
+  if (scene.contact.pressure_by_depth) words += ", its yield pressure by depth";
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
+  const bool open_law = !input.parts.contact_law;
+  const bool open_theory =
+      !given.contain("beam.theory") && !input.parts.mesh && descriptor_of(input.model.mesh).bends;
+  Case base = input;
+  const bool knows_poisson = input.scene.beam_poisson().has_value();
+  if (!knows_poisson) base.scene.beam.poisson = usual_poisson;
+  std::vector<PossibleLaw> laws = {{base, nullptr}};
+  if (open_law) laws = possible_laws(base, given);
+  if (laws.empty()) return {};
+  const PossibleLaw* law = &laws.front();
+  ShearTest test{Shear::not_tested, "this mesh cannot shear"};
+  Case chosen;
+  for (const PossibleLaw& candidate : laws) {
+    law = &candidate;
+    chosen = candidate.input;
+    const auto sheared = open_theory ? with_shear(chosen, given) : std::nullopt;
+    const bool is_last = law == &laws.back();
+    if (!sheared) {
+      if (is_last || !law_ends(chosen)) break;
+      continue;
+    }
+    test = test_shear(chosen, *sheared);
+    if (test.shear != Shear::does_not) chosen = *sheared;
+    if (test.shear != Shear::law_ends) break;
+    test.words = "not tested, for the indentation leaves the law's validity";
+  }
+  const auto law_uses = [&](const char* key) {
+    const BuiltInContactLaw& used = built_in_contact_law(chosen.scene.contact.kind);
+    return open_law && uses_key(constants_given(chosen, used), key);
+  };
+  const bool needs_poisson = chosen.scene.beam.shears() || law_uses("contact.beam_poisson");
+  if (!knows_poisson && !needs_poisson) chosen.scene.beam.poisson.reset();
+
+  std::vector<std::string> words, keys;
+  const auto text = [&](const char* key) { return to_text(*find_case_key(key)->get(chosen)); };
+  if (open_theory) {
+    words.push_back(fmt::format("beam.theory = {}: {}", text("beam.theory"), test.words));
+  }
+  if (open_law && !given.contain("contact.law")) words.push_back(law_words(chosen, law->reason));
+  if (!knows_poisson && needs_poisson) words.push_back("beam.poisson = 0.3: none is given");
+  for (const char* key : {"beam.theory", "beam.poisson", "contact.law", "contact.indentation",
+                          "contact.yield_pressure"}) {
+    if (!given.contain(key) && find_case_key(key)->get(chosen)) keys.emplace_back(key);
+  }
+  input = std::move(chosen);
+  input.model_choice = fmt::format("{}", fmt::join(words, "; "));
+  return keys;
+}
+
+}  // namespace subimpact
