@@ -140,6 +140,7 @@ const Range layer_range{"even, from 2 to 10000 (for more, section = \"exact\" is
 
 const std::optional<std::string> required;  // as a default: the key has none
 const std::string as_in_case;               // as a default: that of the struct Case
+const std::string by_scene = "what the scene needs; the run says which, and why";
 
 template <class Field>
 CaseKey row(const char* name, const char* unit, const Range& range, const char* meaning,
@@ -303,8 +304,8 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.youngs_modulus", "Pa", positive, "Young's modulus", required, AT(scene.beam.youngs_modulus)),
     row("beam.yield_stress", "Pa", positive_or_infinite, "yield stress of beam and contact; inf: neither yields", as_in_case, AT(scene.beam.yield_stress)),
     row("beam.hardening", "", between("from 0 to 0.99", 0.0, 0.99), "linear kinematic hardening: modulus after yield over Young's modulus", as_in_case, AT(scene.beam.hardening)),
-    row("beam.theory", "", any_value, "beam theory", as_in_case, AT(scene.beam.theory)),
-    row("beam.poisson", "", poisson, "Poisson's ratio, for theory = \"timoshenko\" and for contact.law = \"sphere\", \"line\", or \"hertz\" without stiffness", "none; \"timoshenko\" needs it", AT(scene.beam.poisson)),
+    row("beam.theory", "", any_value, "beam theory", by_scene, AT(scene.beam.theory)),
+    row("beam.poisson", "", poisson, "Poisson's ratio, for theory = \"timoshenko\" and for contact.law = \"sphere\", \"line\", or \"hertz\" without stiffness", "0.3 where theory or contact law need it", AT(scene.beam.poisson)),
     row("beam.shear_coefficient", "", positive_share, "shear coefficient k of theory = \"timoshenko\": k G A is the shear stiffness", "Cowper's for the section; of a rectangle 10 (1 + nu)/(12 + 11 nu)", AT(scene.beam.shear_coefficient)),
     row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
     row("beam.load", "N/m", finite, "uniform load along the strike, constant from t = 0", as_in_case, AT(scene.beam.load)),
@@ -339,15 +340,15 @@ std::vector<CaseKey> make_case_keys() {
 
     row("scene.gravity", "m/s2", finite, "gravity along the strike, on striker and beam", as_in_case, AT(scene.gravity)),
 
-    row("contact.law", "", any_value, "relation of contact force and indentation", as_in_case, AT(scene.contact.kind)),
+    row("contact.law", "", any_value, "relation of contact force and indentation", by_scene, AT(scene.contact.kind)),
     row("contact.stiffness", "N/m^1.5 or N/m", positive, "stiffness of the laws \"hertz\" (N/m^1.5) and \"linear\" (N/m)", "hertz: from the radius of the sphere and the moduli; linear: none, it needs one", AT(scene.contact.stiffness)),
     row("contact.striker_modulus", "Pa", positive_or_infinite, "Young's modulus of the nose, for \"sphere\", \"line\", or \"hertz\" without stiffness; inf: rigid", "none: a rigid nose; \"hertz\" without stiffness needs it", AT(scene.contact.striker_modulus)),
     row("contact.striker_poisson", "", poisson, "Poisson's ratio of the nose, given with its modulus", "none: a rigid nose; \"hertz\" without stiffness needs it", AT(scene.contact.striker_poisson)),
     row("contact.beam_poisson", "", poisson, "the same as beam.poisson", "beam.poisson", AT(scene.contact.beam_poisson)),
     row("contact.damping", "s/m", not_negative, "damping chi of the laws \"hertz\" and \"linear\": the force is that of the law times 1 + chi times the rate of the indentation (Hunt and Crossley)", as_in_case, AT(scene.contact.damping)),
-    or_word(row("contact.yield_pressure", "Pa", positive, "contact pressure at which the softer body yields, for \"sphere\" and \"line\"", "sphere: 1.6, line: 1.67 times beam.yield_stress", AT(scene.contact.yield_pressure)),
+    or_word(row("contact.yield_pressure", "Pa", positive, "contact pressure at which the softer body yields, for \"sphere\" and \"line\"", "from the mid-plane \"by-depth\", else 1.6 times beam.yield_stress", AT(scene.contact.yield_pressure)),
             {"by-depth", "the mean pressure rises with the dent, up to 2.8 times beam.yield_stress (from the mid-plane)"}, &Contact::pressure_by_depth),
-    row("contact.indentation", "", any_value, "from where \"sphere\", and \"hertz\" without stiffness, measure the indentation", "sphere, hertz: \"half-space\"; line: \"mid-plane\"", AT(scene.contact.indentation)),
+    row("contact.indentation", "", any_value, "from where \"sphere\", and \"hertz\" without stiffness, measure the indentation", "\"mid-plane\" on solid beams that bend, else \"half-space\"", AT(scene.contact.indentation)),
 
     row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\"; if model.elements is given, \"hermite\", with shear \"spectral\"", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),

@@ -9,6 +9,8 @@
 
 namespace subimpact {
 
+constexpr int fewest_cells = 60;
+
 Case coarse_case(const Case& input, int cells, double end) {
   Case coarse = input;
   coarse.title.clear();
@@ -32,6 +34,20 @@ Case coarse_case(const Case& input, int cells, double end) {
   }
   coarse.solver.method = method_for_damping(coarse, coarse.solver.method);
   return coarse;
+}
+
+int affordable_cells(const Case& input, double end, int most, double work) {
+  int cells = most;
+  for (; cells > fewest_cells; cells = 7 * cells / 10) {
+    try {
+      const ResolvedSettings used = resolve(coarse_case(input, cells, end)).settings();
+      const double steps = end / used.step.value_or(used.critical_step);
+      if (steps * static_cast<double>(used.n_unknowns) <= work) break;
+    } catch (const InvalidCase&) {
+      continue;  // the run says so
+    }
+  }
+  return cells;
 }
 
 std::optional<Result> coarse_run(const Case& input) {

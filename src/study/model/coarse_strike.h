@@ -16,6 +16,10 @@ inline constexpr double hair_opening = 1e-6;
 /// but with the set at the end. A rigid beam has no cells.
 Case coarse_case(const Case& input, int cells, double end);
 
+/// The most cells, up to `most`, with which such a run keeps to the work, in unknowns times steps;
+/// at least some 50.
+int affordable_cells(const Case& input, double end, int most, double work);
+
 /// Nothing where the case cannot be run.
 std::optional<Result> coarse_run(const Case& input);
 

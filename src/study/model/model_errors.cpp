@@ -20,7 +20,7 @@ constexpr double share_of_work = 0.1;
 constexpr double least_work = 4e6;   // some 20 ms
 constexpr double dearer = 4.0;       // an evaluation on few cells that yield, over one on many
 constexpr double runs_beside = 2.4;  // work of a run and those that judge it
-constexpr int most_cells = 481, fewest_cells = 61;
+constexpr int most_cells = 481;
 constexpr double larger_coefficient = 1.02;
 constexpr double fully_plastic = 2.8;  // mean pressure over yield stress
 constexpr double deeper = 1.03;        // the error of Boussinesq's root there is 2.7 %
@@ -110,25 +110,6 @@ std::vector<Variant> variants_of(const Case& input, const Result& result) {
   return variants;
 }
 
-// The finest coarse mesh on which the runs keep to their share of the work.
-int affordable_cells(const Case& input, const Result& result,
-                     const std::vector<Variant>& variants) {
-  double n_runs = 1.0;
-  for (const Variant& variant : variants) n_runs += static_cast<double>(variant.cases.size());
-  const double work = std::max(share_of_work * runs_beside * counted_work(result), least_work);
-  for (int cells = most_cells; cells > fewest_cells; cells = 7 * cells / 10) {
-    try {
-      const Case coarse = coarse_case(input, cells, input.end_time);
-      const ResolvedSettings used = resolve(coarse).settings();
-      const double steps = input.end_time / used.step.value_or(used.critical_step);
-      if (dearer * n_runs * steps * static_cast<double>(used.n_unknowns) <= work) return cells;
-    } catch (const InvalidCase&) {
-      continue;  // a run on it says so
-    }
-  }
-  return fewest_cells;
-}
-
 // The largest change of each figure; nothing where one of the runs does not have it.
 StrikeFigures changes(const StrikeFigures& base, const std::vector<StrikeFigures>& others,
                       const StrikeFigures& value) {
@@ -192,7 +173,10 @@ class Study {
 
   void add_variants() {
     const std::vector<Variant> variants = variants_of(input_, result_);
-    cells_ = affordable_cells(input_, result_, variants);
+    double n_runs = 1.0;
+    for (const Variant& variant : variants) n_runs += static_cast<double>(variant.cases.size());
+    const double all = std::max(share_of_work * runs_beside * counted_work(result_), least_work);
+    cells_ = affordable_cells(input_, input_.end_time, most_cells, all / (dearer * n_runs));
     const std::optional<Result> base = on_cells(input_, input_.end_time);
     for (const Variant& variant : variants) {
       std::vector<StrikeFigures> others;
@@ -268,7 +252,7 @@ class Study {
   const Case& input_;
   const Result& result_;
   ModelErrors errors_;
-  int cells_ = fewest_cells;
+  int cells_ = most_cells;
   double change_of_opening_ = 0.0;  // m, of the parting
 };
 

@@ -17,6 +17,7 @@ namespace subimpact {
 namespace {
 
 constexpr int cells_to_choose = 121;
+constexpr double most_work = 5e5;       // of a run: some 2 ms
 constexpr double first_horizon = 32.0;  // in ResolvedSettings::contact_time
 constexpr double growth_of_horizon = 4.0;
 constexpr double longest_horizon = 512.0;  // of a test of the law alone
@@ -82,6 +83,10 @@ std::vector<PossibleLaw> possible_laws(const Case& input, const GivenKeys& given
   const auto add = [&](std::span<const LawChoice> laws) {
     for (const LawChoice& law : laws) {
       if (law.from == mid && !descriptor_of(input.model.mesh).bends) continue;
+      const bool is_there = std::ranges::any_of(found, [&](const PossibleLaw& other) {
+        return other.input.scene.contact.kind == law.kind && !law.from;
+      });
+      if (is_there) continue;
       if (const auto chosen = with_law(input, given, law)) found.push_back({*chosen, law.reason});
     }
   };
@@ -147,14 +152,24 @@ std::optional<std::string> moved(const Case& input, const Result& without, const
                 relative(a.permanent_set.value_or(0.0), b.permanent_set.value_or(0.0), 1e-9));
 }
 
+// The end of a run over the first contacts, s: so many times their time scale after the touch.
+double end_after(double contact_times, const Case& input) {
+  const Case coarse = coarse_case(input, cells_to_choose, input.end_time);
+  const double touch = input.scene.striker.first_touch();
+  const double span = contact_times * resolve(coarse).settings().contact_time;
+  return std::min(input.end_time, span + (std::isfinite(touch) ? touch : 0.0));
+}
+
+bool left_validity(const std::optional<Result>& run) {
+  return run && run->outcome.kind == OutcomeKind::left_validity;
+}
+
 // Whether a law ends within the first contacts of a coarse run.
 bool law_ends(const Case& input) {
   try {
-    Case coarse = coarse_case(input, cells_to_choose, input.end_time);
-    coarse.end_time =
-        std::min(input.end_time, longest_horizon * resolve(coarse).settings().contact_time);
-    const auto run = coarse_run(coarse);
-    return run && run->outcome.kind == OutcomeKind::left_validity;
+    const double end = end_after(longest_horizon, input);
+    const int cells = affordable_cells(input, end, cells_to_choose, most_work);
+    return left_validity(coarse_run(coarse_case(input, cells, end)));
   } catch (const InvalidCase&) {
     return false;
   }
@@ -162,26 +177,19 @@ bool law_ends(const Case& input) {
 
 // Two runs, without and with shear, over longer and longer times until a difference shows.
 ShearTest test_shear(const Case& without, const Case& with) {
-  Case coarse = coarse_case(with, cells_to_choose, with.end_time);
-  double end = with.end_time;
+  const ShearTest not_tested{Shear::not_tested, "a coarse mesh cannot test whether shear matters"};
+  double end = 0.0;
   try {
-    end = first_horizon * resolve(coarse).settings().contact_time;
+    end = end_after(first_horizon, with);
   } catch (const InvalidCase&) {
-    return {Shear::not_tested, "a coarse mesh cannot test whether shear matters"};
+    return not_tested;
   }
-  end += with.scene.striker.gap > 0.0 && with.scene.striker.velocity > 0.0
-             ? with.scene.striker.first_touch()
-             : 0.0;
-  for (;; end *= growth_of_horizon) {
-    end = std::min(end, with.end_time);
-    const auto a = coarse_run(coarse_case(without, cells_to_choose, end));
-    const auto b = coarse_run(coarse_case(with, cells_to_choose, end));
-    for (const auto& run : {a, b}) {
-      if (run && run->outcome.kind == OutcomeKind::left_validity) return {Shear::law_ends, {}};
-      if (!run || !run->outcome.completed()) {
-        return {Shear::not_tested, "a coarse mesh cannot test whether shear matters"};
-      }
-    }
+  for (;; end = std::min(growth_of_horizon * end, with.end_time)) {
+    const int cells = affordable_cells(with, end, cells_to_choose, most_work);
+    const auto a = coarse_run(coarse_case(without, cells, end));
+    const auto b = coarse_run(coarse_case(with, cells, end));
+    if (left_validity(a) || left_validity(b)) return {Shear::law_ends, {}};
+    if (!a || !b || !a->outcome.completed() || !b->outcome.completed()) return not_tested;
     const bool at_end = end == with.end_time;
     if (const auto words = moved(with, *a, *b, at_end)) return {Shear::moves, *words};
     if (at_end) break;
