@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -199,14 +200,28 @@ ShearTest test_shear(const Case& without, const Case& with) {
           "velocity and set by less than 1 %"};
 }
 
-std::string law_words(const Case& chosen, const char* reason) {
+std::string text_of(const Case& input, const char* key) {
+  return to_text(*find_case_key(key)->get(input));
+}
+
+// The law, where it is measured from and when it yields, as far as they were chosen.
+std::vector<std::string> law_words(const Case& chosen, const PossibleLaw& law,
+                                   const GivenKeys& given) {
+  std::vector<std::string> words;
   const Scene& scene = chosen.scene;
-  std::string words = fmt::format("contact.law = {}: {}",
-                                  to_text(*find_case_key("contact.law")->get(chosen)), reason);
-  if (!scene.striker.nose && scene.nose() == NoseShape::cylinder) {
-    words += " (a nose not given is a cylinder)";
+  if (!given.contain("contact.law")) {
+    const bool is_ball = scene.nose() == NoseShape::sphere;
+    const char* nose = scene.striker.nose ? ""
+                       : is_ball ? " (for a nose not given, since none has a cylinder here)"
+                                 : " (a nose not given is a cylinder)";
+    words.push_back(
+        fmt::format("contact.law = {}: {}{}", text_of(chosen, "contact.law"), law.reason, nose));
   }
-  if (scene.contact.pressure_by_depth) words += ", its yield pressure by depth";
+  const auto add = [&](const char* key) {
+    if (!given.contain(key)) words.push_back(fmt::format("{} = {}", key, text_of(chosen, key)));
+  };
+  if (scene.contact.indentation && law.reason != nullptr) add("contact.indentation");
+  if (scene.contact.pressure_by_depth) add("contact.yield_pressure");
   return words;
 }
 
@@ -247,11 +262,11 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
   if (!knows_poisson && !needs_poisson) chosen.scene.beam.poisson.reset();
 
   std::vector<std::string> words, keys;
-  const auto text = [&](const char* key) { return to_text(*find_case_key(key)->get(chosen)); };
   if (open_theory) {
-    words.push_back(fmt::format("beam.theory = {}: {}", text("beam.theory"), test.words));
+    words.push_back(
+        fmt::format("beam.theory = {}: {}", text_of(chosen, "beam.theory"), test.words));
   }
-  if (open_law && !given.contain("contact.law")) words.push_back(law_words(chosen, law->reason));
+  if (open_law) std::ranges::copy(law_words(chosen, *law, given), std::back_inserter(words));
   if (!knows_poisson && needs_poisson) words.push_back("beam.poisson = 0.3: none is given");
   for (const char* key : {"beam.theory", "beam.poisson", "contact.law", "contact.indentation",
                           "contact.yield_pressure"}) {

@@ -10,8 +10,9 @@
 
 namespace subimpact {
 
-/// Chooses theory and contact law where `given` leaves them open, by the scene alone: the same with
-/// any mesh, method, tolerance and error bars. Returns the keys that were chosen.
+/// Chooses theory and contact law where `given` leaves them open, by the scene, the time it is
+/// followed and what given mesh keys can model: the same with any number of cells, method, rtol and
+/// error bars. Returns the keys that were chosen.
 ///
 ///   - contact.law by the nose and the section: a cylinder on a solid flat beam is a `line`, a ball
 ///     a `sphere` (from the mid-plane where the beam bends); what these do not describe gets the
