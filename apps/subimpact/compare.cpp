@@ -79,7 +79,8 @@ int run_comparison(CompareOptions& options) {
     return session.end_interrupted(" before a method was compared; nothing is written");
   }
   session.listener.hold_back();
-  print("{}\n\n{}", heading(loaded.value), comparison_table(comparison));
+  print("{}; all on {}\n\n{}", heading(loaded.value), comparison.reference.result.used.mesh,
+        comparison_table(comparison));
   if (directory) {
     const auto write = [&](const auto& place) { write_comparison(place, comparison); };
     if (!write_after_printing(*directory, write)) return failed;

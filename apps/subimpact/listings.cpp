@@ -13,9 +13,12 @@ struct ExplainOptions : CaseOptions {
 
 int explain(ExplainOptions& options) {
   const LoadedCase loaded = options.load();
+  StatusLine status;
+  status.show("resolving the case and the runs beside it");
   with_places(loaded, [&] {
     const RunForecast found = forecast(loaded.value, loaded.given, options.jobs);
     const std::string text = options.as_json ? forecast_json(found) : explanation(found);
+    status.clear();
     print_doubts(loaded);
     print("{}", text);
   });

@@ -86,7 +86,7 @@ void add_scatter(WithinRun& run, const RunOptions& options, const InterruptListe
   SensitivityOptions how;
   how.jobs = options.jobs;
   how.finished = [&](std::size_t n_done, std::size_t n_all) {
-    if (!options.quiet) status.show(fmt::format("scatter: {} of {} runs", n_done, n_all));
+    if (!options.quiet) status.show_runs("scatter: ", n_done, n_all);
   };
   how.progress = [&](double) { return !listener.interrupted(); };
   add_predictability(run.result, run.input, how);

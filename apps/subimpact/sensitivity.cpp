@@ -38,7 +38,7 @@ int run_sensitivity(SensitivityCommand& command) {
     options.jobs = command.jobs;
     options.progress = session.progress();
     options.finished = [&](std::size_t n_done, std::size_t n_all) {
-      show(fmt::format("{} of {} runs", n_done, n_all));
+      if (!command.quiet) session.status.show_runs("", n_done, n_all);
     };
     const Case input = case_as_chosen(loaded.value, loaded.given, options.jobs, options.progress);
     show("base run");

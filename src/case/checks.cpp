@@ -113,11 +113,17 @@ bool is_known(const Case& input, std::string_view key) {
 void check_contact(const Case& input) {
   if (input.parts.contact_law) return;
   const BuiltInContactLaw& law = built_in_contact_law(input.scene.contact.kind);
-  if (input.scene.contact.damping > 0.0 && law.yields) {
-    refuse("contact.damping",
-           "is {:g} s/m, but contact.law = \"{}\" loses its energy by yielding; allowed: 0; leave "
-           "it out, or choose \"hertz\" or \"linear\"",
-           input.scene.contact.damping, law.name);
+  const Contact& contact = input.scene.contact;
+  if ((contact.damping > 0.0 || contact.restitution) && law.yields) {
+    refuse(contact.restitution ? "contact.restitution" : "contact.damping",
+           "is given, but contact.law = \"{}\" loses its energy by yielding; leave it out, or "
+           "choose \"hertz\" or \"linear\"",
+           law.name);
+  }
+  if (contact.damping > 0.0 && contact.restitution) {
+    refuse("contact.restitution",
+           "is given, and contact.damping too, but each gives the loss of the contact; leave one "
+           "out");
   }
   const ContactConstants& way = constants_given(input, law);
   for (const char* name : way.keys) {
@@ -129,7 +135,8 @@ void check_contact(const Case& input) {
   for (const CaseKey& key : case_keys()) {
     const bool is_number = key.table() == "contact" && key.type == KeyType::number;
     const char* name = key.name.c_str();
-    if (!is_number || key.name == "contact.damping" || uses_key(way, name) || !key.get(input))
+    if (!is_number || key.name == "contact.damping" || key.name == "contact.restitution" ||
+        uses_key(way, name) || !key.get(input))
       continue;
     refuse(name, "is given, but {}; leave it out, or choose another contact.law",
            key.name == "contact.yield_pressure" ? "only \"sphere\" and \"line\" yield at it"

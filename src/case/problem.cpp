@@ -135,7 +135,7 @@ Problem problem_of(const Case& input) {
   problem.mesh = input.parts.mesh ? input.parts.mesh : descriptor_of(input.model.mesh).make(input);
   if (input.scene.beam.is_sprung()) problem.mesh = on_springs(input, std::move(problem.mesh));
   problem.contact_law = contact_law_of(input);
-  problem.contact_damping = input.scene.contact.damping;
+  problem.contact_damping = input.scene.contact_damping();
   problem.check_contact_law = input.parts.contact_law != nullptr;
   problem.may_yield = may_yield(input);
   problem.start = input.parts.start;

@@ -1,5 +1,7 @@
 #include "subimpact/model/scene.h"
 
+#include "numerics/bracketed_root.h"
+
 namespace subimpact {
 namespace {
 
@@ -38,6 +40,17 @@ double Beam::yield_moment() const {
     return yield_stress * outer.width * outer.height * outer.height / 6.0;
   }
   return yield_stress * second_moment() / (0.5 * outer.height);
+}
+
+double Scene::contact_damping() const {
+  if (!contact.restitution || *contact.restitution >= 1.0) return contact.damping;
+  const double e = *contact.restitution;
+  const auto lacking = [e](double z) { return std::log1p(z) - std::log1p(-e * z) - z * (1.0 + e); };
+  // The other root is 0; near it the function is (1 - e^2) z^2/2 below it, less (1 + e^3) z^3/3.
+  const double near_one = 1.5 * (1.0 - e * e) / (1.0 + e * e * e);
+  const double z =
+      e > 0.9999 ? near_one : root_in(lacking, 0.3 * std::min(near_one, 1.0), (1.0 - 1e-12) / e);
+  return z / bodies().velocity_scale();
 }
 
 // Cowper's table. Box and I are thin-walled: h and b between the middles of their walls; m is the

@@ -56,7 +56,7 @@ Case with_method(const Case& input, const std::string& name) {
 
 Method method_for_damping(const Case& input, Method method) {
   using Damping = MethodDescriptor::Damping;
-  const bool contact = input.scene.contact.damping > 0.0;
+  const bool contact = input.scene.contact_damping() > 0.0;
   const bool beam = !input.scene.beam.damping.is_none();
   const Damping taken = descriptor_of(method).damping;
   const bool of_modes = taken == Damping::of_modes && !contact && !may_yield(input);

@@ -237,6 +237,9 @@ struct Contact {
   std::optional<double> beam_poisson;     ///< nu
   /// chi, s/m: F = K lambda^n (1 + chi lambda') (hertz, linear; Hunt and Crossley 1975)
   double damping = 0.0;
+  /// e, in place of chi: the coefficient of restitution of two rigid bodies that meet as fast as
+  /// striker and beam first do.
+  std::optional<double> restitution = {};
   /// p_y, Pa: contact pressure at which the softer body yields; by default 1.6 Y (sphere), 1.67 Y
   /// (line).
   std::optional<double> yield_pressure = {};
@@ -262,6 +265,15 @@ struct Scene {
   std::optional<double> beam_poisson() const {
     return beam.poisson ? beam.poisson : contact.beam_poisson;
   }
+  /// chi, s/m: given, or that of the given restitution e, from
+  ///
+  ///     z (1 + e) = ln((1 + z)/(1 - e z)),   z = chi v,   v the velocity of the first touch,
+  ///
+  /// which holds for K lambda^n (1 + chi lambda') with any K, n and masses: between two rigid
+  /// bodies the work of the damping is what they lose. Source: K. H. Hunt, F. R. E. Crossley,
+  /// Coefficient of restitution interpreted as damping in vibroimpact, J. Appl. Mech. 42 (1975),
+  /// without its restriction to e near 1.
+  double contact_damping() const;
   NoseShape nose() const {
     const bool is_line =
         contact.kind == ContactKind::foundation || contact.kind == ContactKind::line;

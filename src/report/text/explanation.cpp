@@ -208,8 +208,8 @@ std::string contact_section(const Case& input, const ResolvedSettings& used) {
   const std::string words = contact_words(input);
   text += line("law", words.empty() ? used.contact_law : words + contact_assumptions(input));
   text += line("stiffness", contact_stiffness_text(input, used));
-  if (scene.contact.damping > 0.0) {
-    text += line("damping", fmt::format("{:.6g} s/m", scene.contact.damping));
+  if (const double damping = scene.contact_damping(); damping > 0.0) {
+    text += line("damping", fmt::format("{:.6g} s/m", damping));
   }
   text +=
       line("stiffest", fmt::format("{:.4g} N/m, as deep as the strike's energy can press; contacts "

@@ -53,6 +53,22 @@ TEST_P(ADampedContactByAMethod, OfTwoRigidBodiesHasTheClosedFormsRestitution) {
   }
 }
 
+TEST(ADampedContact, LosesWhatAGivenCoefficientOfRestitutionSays) {
+  for (const ContactKind kind : {ContactKind::hertz, ContactKind::linear}) {
+    for (const double e : {0.1, 0.3, 0.7, 0.95, 0.9998, 0.99995}) {
+      Case input = rigid_case(kind, 0.0);
+      input.scene.contact.restitution = e;
+      input.solver.method = Method::erk;
+      input.solver.rtol = 1e-12;
+      input.end_time = 5e-3;
+      const Result result = completed(input);
+      const double found =
+          (result.beam_mean_velocity - result.striker_velocity) / input.scene.striker.velocity;
+      EXPECT_NEAR(found, e, 1e-8) << e;
+    }
+  }
+}
+
 TEST(ADampedContact, HasThePeakForceOfItsPhasePortrait) {
   // With u = lambda' the energy K/m lambda^(n+1)/(n+1) is (v - u)/chi - ln((1 + chi v)/(1 + chi
   // u))/chi^2.
