@@ -340,9 +340,10 @@ class ScatterPage(PageTestCase):
         self.assertGreater(self.js(COUNT, self.find("#timeline"), "doubt"), 20)
         self.assertIn("; beyond: ", self.find("body").text)
 
-    def test_it_states_what_bending_theory_leaves_out_as_the_run_does(self):
+    def test_it_states_what_the_model_leaves_out_as_the_run_does(self):
         printed = self.program("run", self.program.case, "--out", "again", "--set", "time.end=3e-4").stdout
-        words = printed.split("left out")[1].split(";")[0].split()  # up to where to find shear
+        words = printed.split("of the body: parting")[1].split(": ", 1)[1].split("largest force")[0].split()
+        self.assertIn("shear", words)
         self.program("report", "again")
         browser.open_page(self.driver, self.program.directory / "again" / "report.html")
         shown = " ".join(self.find("body").text.split())

@@ -134,6 +134,7 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
   }
   Case linear = foundation;
   linear.scene.contact = {ContactKind::linear, 1e7, {}, {}, {}};
+  linear.scene.contact.restitution = 0.7;
   Case sphere = foundation;
   sphere.scene.contact = {ContactKind::hertz, {}, 2e11, 0.3, 0.25};
   Case sheared = foundation;
