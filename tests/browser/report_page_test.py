@@ -342,7 +342,7 @@ class ScatterPage(PageTestCase):
 
     def test_it_states_what_the_model_leaves_out_as_the_run_does(self):
         printed = self.program("run", self.program.case, "--out", "again", "--set", "time.end=3e-4").stdout
-        words = printed.split("of the body: parting")[1].split(": ", 1)[1].split("largest force")[0].split()
+        words = printed.split("model: parting")[1].split(": ", 1)[1].split("model: force")[0].split()
         self.assertIn("shear", words)
         self.program("report", "again")
         browser.open_page(self.driver, self.program.directory / "again" / "report.html")

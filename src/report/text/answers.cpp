@@ -383,10 +383,10 @@ void add_model_errors(const Result& result, std::vector<Answer>& answers) {
     answers.push_back({name, text_of({std::abs(*value), errors.error.*figure}, measure),
                        part_words(errors, figure, unit_for(std::abs(*value), measure))});
   };
-  add("of the body: parting", &StrikeFigures::parting, as_time);
-  add("  largest force", &StrikeFigures::peak_force, as_force);
-  add("  final velocity", &StrikeFigures::striker_velocity, as_velocity);
-  add("  permanent set", &StrikeFigures::permanent_set, as_length);
+  add("model: parting", &StrikeFigures::parting, as_time);
+  add("model: force", &StrikeFigures::peak_force, as_force);
+  add("model: velocity", &StrikeFigures::striker_velocity, as_velocity);
+  add("model: set", &StrikeFigures::permanent_set, as_length);
 }
 
 }  // namespace
