@@ -176,8 +176,10 @@ LoopOptions loop_options(const RunParts& parts) {
     loop.correction_tolerance =
         correction_tolerance(given.solver.rtol) * parts.beam.scales().velocity;
   }
-  loop.largest_indentation = parts.problem.beam.height();
   const ContactLaw& law = parts.beam.contact().law();
+  // A spring may be a pad or a bumper, thicker than the beam.
+  const bool is_spring = law.scales().exponent == 1.0 && std::isinf(law.yield_threshold({}));
+  loop.largest_indentation = is_spring ? HUGE_VAL : parts.problem.beam.height();
   if (const double deepest = law.largest_indentation(); deepest < loop.largest_indentation) {
     loop.largest_indentation = deepest;
     loop.end_of_law =

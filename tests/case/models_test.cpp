@@ -1,6 +1,7 @@
 // One scene modelled in two ways that must agree.
 
 #include "paper_case.h"
+#include "rigid_case.h"
 
 namespace subimpact {
 namespace {
@@ -84,6 +85,16 @@ TEST(AnIndentationAsDeepAsTheBeam, EndsTheRunWithWhatWasComputed) {
   EXPECT_GT(result.outcome.time, 0.0);
   EXPECT_EQ(result.sub_impacts.size(), 1u);
   expect_in(result.outcome.message, "thickness");
+}
+
+TEST(APadThickerThanTheBeam, IsASpringThatGivesWayAsFarAsItMust) {
+  Case input = rigid_case(ContactKind::linear, 2.0, 0.1);
+  input.scene.contact.stiffness = 2e3;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  const double depth = 2.0 * std::sqrt(reduced_mass(input) / 2e3);
+  EXPECT_GT(depth, input.scene.beam.height());
+  EXPECT_NEAR(result.max_indentation, depth, 1e-6 * depth);
 }
 
 }  // namespace
