@@ -414,7 +414,6 @@ std::string contact_over_words(const Result& result) {
 std::vector<Answer> answers(const Case& input, const Result& result) {
   const bool is_in_contact = !result.sub_impacts.empty() && !result.sub_impacts.back().end;
   std::vector<Answer> all = {strike(input, result)};
-  if (!input.model_choice.empty()) all.push_back({"model", "chosen", input.model_choice});
   all.push_back({"sub-impacts",
                  fmt::format("{} in {}", result.sub_impacts.size(),
                              counted(summarise_zones(result.sub_impacts).size(), "zone")) +
@@ -437,6 +436,7 @@ std::vector<Answer> answers(const Case& input, const Result& result) {
   if (result.used.section != "rigid") all.push_back(permanent_set(input, result));
   add_reactions(result, all);
   if (result.final_energies.taken_up() > 0.0) all.push_back(energy(result));
+  if (!input.model_choice.empty()) all.push_back({"model", "chosen", input.model_choice});
   add_model_errors(result, all);
   all.push_back({"contact over",
                  result.contact_over ? "yes"
