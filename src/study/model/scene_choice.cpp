@@ -178,7 +178,7 @@ bool law_ends(const Case& input) {
 
 // Two runs, without and with shear, over longer and longer times until a difference shows.
 ShearTest test_shear(const Case& without, const Case& with) {
-  const ShearTest not_tested{Shear::not_tested, "a coarse mesh cannot test whether shear matters"};
+  ShearTest not_tested{Shear::not_tested, "a coarse mesh cannot test whether shear matters"};
   double end = 0.0;
   try {
     end = end_after(first_horizon, with);
