@@ -10,7 +10,8 @@
 namespace subimpact {
 namespace {
 
-// Steps are halved until the cubic foretells the largest gap to this part of it.
+// Steps are halved until the gap at the middle is that of the cubic, to this part of the largest
+// gap.
 constexpr double accuracy = 1e-5;
 constexpr int most_halvings = 6;
 

@@ -38,6 +38,19 @@ TEST(ContinuedRun, OfTheProgramLeavesTheFilesOfTheWholeStrike) {
   }
 }
 
+TEST(ContinuedRun, KeepsTheModelOfTheEarlierRunWhereTheCaseLeavesItOpen) {
+  const TemporaryDirectory here;
+  here.write("open.toml", open_case);
+  run_in(here, {"run", "open.toml", "--error-bars=off", "--out", "first", "--set",
+                "contact.law=foundation", "--set", "beam.theory=rayleigh"});
+  run_in(here,
+         {"run", "open.toml", "--continue", "first", "--set", "time.end=3e-4", "--out", "on"});
+  const Scene scene = read_results(here.path / "on").input.scene;
+  EXPECT_EQ(scene.contact.kind, ContactKind::foundation);
+  EXPECT_FALSE(scene.contact.pressure_by_depth);
+  EXPECT_FALSE(scene.beam.shears());
+}
+
 TEST(ContinuedRun, ThatWasToldToEndGoesOn) {
   const TemporaryDirectory here;
   const std::vector<std::string> slow = {"--set", "output.interval=1e-5", "--error-bars=off"};

@@ -5,8 +5,9 @@
 
 namespace subimpact {
 
-/// Counts, verdicts and totals of a judged run are one account: zones add up to the run, what is
-/// certain has no error, and no verdict on the end contradicts the doubt of it.
+/// Counts, verdicts and totals of a judged run are one account: zones add up to the run, the
+/// number of sub-impacts has no error where all are certain, and contact is not said to be over
+/// where another sub-impact is possible.
 inline void expect_one_account(const Result& result) {
   ASSERT_TRUE(result.error_estimate);
   const ErrorEstimate& estimate = *result.error_estimate;

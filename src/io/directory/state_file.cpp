@@ -103,8 +103,12 @@ FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& lo
     read_json(directory / state_name, files.text(state_name), "the state of a run",
               "; run the case again", read);
   });
+  Scene& scene = loaded.value.scene;
   for (const std::string& name : loaded.chosen) {
     const CaseKey& key = *find_case_key(name);
+    if (name == "beam.poisson") scene.beam.poisson.reset();
+    if (name == "contact.indentation") scene.contact.indentation.reset();
+    if (name == "contact.yield_pressure") scene.contact.pressure_by_depth = false;
     if (const auto value = key.get(run.input)) key.set(loaded.value, *value);
   }
   loaded.value.model_choice = run.input.model_choice;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case/meshes.h"
+#include "study/judgement/totals.h"
 #include "study/method_choice.h"
 #include "subimpact/case/simulate.h"
 
@@ -66,9 +67,8 @@ StrikeFigures figures_of(const Result& result) {
   }
   figures.peak_force = result.max_force;
   figures.striker_velocity = result.striker_velocity;
-  for (const EnvelopeRow& row : result.envelope) {
-    const double set = std::abs(row.set_from_supports);
-    figures.permanent_set = std::max(figures.permanent_set.value_or(0.0), set);
+  if (!result.envelope.empty()) {
+    figures.permanent_set = largest_magnitude(result.envelope, &EnvelopeRow::set_from_supports);
   }
   return figures;
 }

@@ -9,17 +9,17 @@
 
 #include "case/meshes.h"
 #include "case/problem.h"
+#include "study/judgement/totals.h"
 #include "study/model/coarse_strike.h"
+#include "study/refinement/refinement.h"
 #include "subimpact/study/model/scene_choice.h"
-#include "subimpact/study/refinement/within.h"
 
 namespace subimpact {
 namespace {
 
 constexpr double share_of_work = 0.1;
-constexpr double least_work = 4e6;   // some 20 ms
-constexpr double dearer = 4.0;       // an evaluation on few cells that yield, over one on many
-constexpr double runs_beside = 2.4;  // work of a run and those that judge it
+constexpr double least_work = 4e6;  // some 20 ms
+constexpr double dearer = 4.0;      // an evaluation on few cells that yield, over one on many
 constexpr int most_cells = 481;
 constexpr double larger_coefficient = 1.02;
 constexpr double fully_plastic = 2.8;  // mean pressure over yield stress
@@ -175,7 +175,8 @@ class Study {
     const std::vector<Variant> variants = variants_of(input_, result_);
     double n_runs = 1.0;
     for (const Variant& variant : variants) n_runs += static_cast<double>(variant.cases.size());
-    const double all = std::max(share_of_work * runs_beside * counted_work(result_), least_work);
+    const double all =
+        std::max(share_of_work * work_with_others * counted_work(result_), least_work);
     cells_ = affordable_cells(input_, input_.end_time, most_cells, all / (dearer * n_runs));
     const std::optional<Result> base = on_cells(input_, input_.end_time);
     for (const Variant& variant : variants) {
@@ -227,10 +228,7 @@ class Study {
     errors_.parts.push_back(rotations);
     if (is_held) errors_.parts.push_back(stretching);
     if (!yields(result_)) return;
-    double rotation = 0.0;
-    for (const PlasticZone& zone : result_.plastic_zones) {
-      rotation = std::max(rotation, std::abs(zone.rotation));
-    }
+    const double rotation = largest_magnitude(result_.plastic_zones, &PlasticZone::rotation);
     errors_.parts.push_back({"hinge length", "a hinge as long as the beam is high"});
     errors_.parts.back().change.permanent_set = rotation * beam.height() / 8.0;
   }

@@ -137,8 +137,8 @@ std::optional<std::string> moved(const Case& input, const Result& without, const
     return fmt::format(
         "without shear the first contact parted by more than 1 um ends {} on a coarse mesh, with "
         "shear {}",
-        a.parting ? "at " + microseconds(first) : "later than that",
-        b.parting ? "at " + microseconds(second) : "later than that");
+        (a.parting ? "at " : "after ") + microseconds(first),
+        (b.parting ? "at " : "after ") + microseconds(second));
   }
   const double touch = scale_of_velocity * std::abs(with.first_touch.striker);
   const auto change = [&](const char* what, double by) -> std::optional<std::string> {
@@ -220,7 +220,7 @@ std::vector<std::string> law_words(const Case& chosen, const PossibleLaw& law,
   const auto add = [&](const char* key) {
     if (!given.contain(key)) words.push_back(fmt::format("{} = {}", key, text_of(chosen, key)));
   };
-  if (scene.contact.indentation && law.reason != nullptr) add("contact.indentation");
+  if (scene.contact.indentation) add("contact.indentation");
   if (scene.contact.pressure_by_depth) add("contact.yield_pressure");
   return words;
 }

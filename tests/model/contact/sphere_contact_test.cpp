@@ -194,5 +194,36 @@ TEST(ContactYieldVelocity, IsThatOfTheEnergyUpToYieldAndHertzHasThatOfItsMateria
   EXPECT_FALSE(contact_yield_velocity(scene, *make_contact_law(scene)));
 }
 
+// Johnson, Contact Mechanics, equations 3.63 and 4.45; beyond first yield force over area.
+TEST(ContactPressure, IsHertzsUpToFirstYieldAndThenTheMeanThatTheForceNeeds) {
+  Scene scene = paper_scene();
+  for (const ContactKind kind : {ContactKind::sphere, ContactKind::line}) {
+    const bool is_ball = kind == ContactKind::sphere;
+    scene.contact = {kind, {}, INFINITY, 0.3, 0.33};
+    scene.contact.indentation = IndentationFrom::mid_plane;
+    const double modulus = scene.beam.youngs_modulus / (1.0 - 0.33 * 0.33);
+    const double R = *scene.striker.nose_radius, b = scene.beam.width;
+    const double p = 1e8;  // below first yield, 1.6 and 1.67 Y
+    const double a = p * R / modulus * (is_ball ? 0.5 * M_PI : 2.0);
+    const double force = is_ball ? 2.0 / 3.0 * p * M_PI * a * a : 0.5 * M_PI * a * p * b;
+    const auto elastic = contact_pressure(scene, force);
+    ASSERT_TRUE(elastic);
+    EXPECT_FALSE(elastic->is_mean);
+    EXPECT_NEAR(elastic->at_force, p, 1e-9 * p);
+    EXPECT_NEAR(elastic->first_yield, (is_ball ? 1.6 : 1.67) * scene.beam.yield_stress, 1.0);
+    scene.contact.pressure_by_depth = true;
+    const auto deep = contact_pressure(scene, 1e4);
+    ASSERT_TRUE(deep && deep->is_mean);
+    const MeanPressure::Nose nose =
+        is_ball ? MeanPressure::Nose::ball : MeanPressure::Nose::cylinder;
+    const double width =
+        is_ball ? std::sqrt(1e4 / (M_PI * deep->at_force)) : 1e4 / (2.0 * b * deep->at_force);
+    const MeanPressure mean = pressure_by_depth(nose, scene.beam.yield_stress, modulus, R);
+    EXPECT_NEAR(mean.beyond_it(width).at, deep->at_force, 1e-9 * deep->at_force);
+  }
+  scene.contact = {ContactKind::hertz, 1e10, {}, {}, {}};
+  EXPECT_FALSE(contact_pressure(scene, 1e3));
+}
+
 }  // namespace
 }  // namespace subimpact
