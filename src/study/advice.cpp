@@ -16,8 +16,8 @@ constexpr double least_change_by_shear = 5e-3;  // of the end of the first conta
 constexpr double times_more_accurate = 5.0;
 constexpr double times_longer = 2.0;
 
-double seconds_of_work(double work, const Result& result) {
-  return work * result.work.wall_seconds / counted_work(result);
+double seconds_of_work(double work, const Case& input, const Result& result) {
+  return work * result.work.wall_seconds / counted_work(input, result);
 }
 
 // Runs on the way to smaller errors, whose last mesh takes most of the time.
@@ -30,14 +30,14 @@ Advice smaller_errors(const Case& input, const Result& result) {
   const double growth = std::pow(times_more_accurate, usual_growth / order);
   return {{{"--within", fmt::format("{:.1g}us", 1e6 * within)}},
           std::min(result.work.all_seconds * (1.0 + growth),
-                   seconds_of_work(input.accuracy.work_limit, result)),
+                   seconds_of_work(input.accuracy.work_limit, input, result)),
           "makes more of them certain, and the errors smaller"};
 }
 
 // Frees what the case fixes of mesh and method.
-Advice chosen_mesh(const GivenKeys& given, const Result& result) {
+Advice chosen_mesh(const Case& input, const GivenKeys& given, const Result& result) {
   Advice advice{{},
-                seconds_of_work(default_work_limit, result),
+                seconds_of_work(default_work_limit, input, result),
                 "leaves mesh and method to the program: errors then hold for all meshes"};
   for (const auto& keys : {given.in_file, given.in_settings}) {
     for (const std::string& key : keys) {
@@ -80,7 +80,7 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
     const bool is_stopped_by_work =
         result.tolerance && result.tolerance->key == "accuracy.work_limit";
     if (result.choice.empty()) {
-      all.push_back(chosen_mesh(given, result));
+      all.push_back(chosen_mesh(input, given, result));
       if (all.back().options.empty()) all.pop_back();
     } else if (!result.tolerance) {
       all.push_back(smaller_errors(input, result));

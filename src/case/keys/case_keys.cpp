@@ -379,7 +379,7 @@ std::vector<CaseKey> make_case_keys() {
     row("solver.max_order", "", between("from 1 to 12 (adams) or 5 (bdf)", 1, 12), "highest order of a multistep method", usual_orders(), AT(solver.max_order)),
 
     row("accuracy.event_times", "s", positive, "bound on the error of every event time: `subimpact run` chooses what the case leaves open of mesh, method and tolerance so that the bound holds", "none", AT(accuracy.event_times)),
-    row("accuracy.work_limit", "", positive, "bound on the work of all runs made to meet accuracy.event_times, in evaluations of the right-hand side times unknowns (1 to 3 ns each); no effect without that key", as_in_case, AT(accuracy.work_limit)),
+    row("accuracy.work_limit", "", positive, "bound on the work of all runs made to meet accuracy.event_times, in evaluations of the right-hand side by central differences times unknowns (1 to 3 ns each); no effect without that key", as_in_case, AT(accuracy.work_limit)),
     row("accuracy.energy", "", positive_share, "largest error of the energy, relative to the initial energy, with which a run counts as completed", "from method and rtol, 1e-3 at most", AT(accuracy.energy)),
 
     row("output.interval", "s", not_negative, "time between history rows; 0: none", "time.end/2000, and during contact wherever the force has changed by 1 % of the largest so far", AT(output.interval)),

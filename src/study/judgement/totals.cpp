@@ -36,6 +36,7 @@ struct Quantity {
   // Set for an extreme along the beam: runs are compared at the instants that they share, and the
   // error has a part due to the distance between instants.
   SampledPeak FieldPeaks::*peak = nullptr;
+  EnvelopeRow::Range EnvelopeRow::*range = nullptr;  // the same at a place
 
   std::optional<double> of(const Case& input, const Result& run) const {
     if (from == From::shapes && run.envelope.empty()) return std::nullopt;
@@ -54,9 +55,9 @@ const Quantity quantities[] = {
     {"impulse_Ns", [](Run run, double) { return run.impulse(); }},
     {"peak_force_N", [](Run run, double) { return run.max_force; }, safety_of_largest},
     {"max_indentation_m", [](Run run, double) { return run.max_indentation; }, safety_of_largest},
-    {"max_displacement_m", [](Run run, double) { return run.peaks.displacement.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::displacement},
-    {"max_moment_Nm", [](Run run, double) { return run.peaks.moment.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::moment},
-    {"max_strain", [](Run run, double) { return run.peaks.strain.largest; }, usual_safety, From::shapes, largest_error_of_strain, &FieldPeaks::strain},
+    {"max_displacement_m", [](Run run, double) { return run.peaks.displacement.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::displacement, &EnvelopeRow::displacement},
+    {"max_moment_Nm", [](Run run, double) { return run.peaks.moment.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::moment, &EnvelopeRow::moment},
+    {"max_strain", [](Run run, double) { return run.peaks.strain.largest; }, usual_safety, From::shapes, largest_error_of_strain, &FieldPeaks::strain, &EnvelopeRow::strain},
     {"reaction_along_N", [](Run run, double) { return run.peaks.reaction_along.largest > 0.0 ? run.peaks.reaction_along.largest : NAN; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::reaction_along},
     {"reaction_against_N", [](Run run, double) { return run.peaks.reaction_against.largest > 0.0 ? run.peaks.reaction_against.largest : NAN; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::reaction_against},
     {"permanent_set_m", [](Run run, double) { return largest_magnitude(run.envelope, &EnvelopeRow::set_from_supports); }, usual_safety, From::shapes},
@@ -86,6 +87,33 @@ Total total_of(const Result& run, std::span<const RunBeside> beside, double safe
   total.error = 0.0;
   for (const auto& [part, error] : parts) *total.error += error;
   return total;
+}
+
+double magnitude(const EnvelopeRow::Range& range) {
+  return std::max(std::abs(range.largest.value), std::abs(range.smallest.value));
+}
+
+// By how much the largest magnitude of another place may exceed that of the run, if it is as far
+// off as runs beside are there: `errors_over_difference` their factor.
+double excess_elsewhere(const Result& run, std::span<const RunBeside> beside, double largest,
+                        EnvelopeRow::Range EnvelopeRow::*range, double safety) {
+  double excess = 0.0;
+  for (const EnvelopeRow& row : run.envelope) {
+    const double here = magnitude(row.*range);
+    double error = 0.0;
+    for (const RunBeside& other : beside) {
+      const auto& there = other.result.envelope;
+      const auto right = std::ranges::lower_bound(there, row.position, {}, &EnvelopeRow::position);
+      if (right == there.end()) continue;
+      const auto left = right == there.begin() ? right : std::prev(right);
+      const double width = right->position - left->position;
+      const double share = width > 0.0 ? (row.position - left->position) / width : 0.0;
+      const double value = std::lerp(magnitude((*left).*range), magnitude((*right).*range), share);
+      error = std::max(error, safety * other.of.gain * std::abs(here - value));
+    }
+    excess = std::max(excess, here + error - largest);
+  }
+  return excess;
 }
 
 double end_of(const ZoneSummary& zone, const Result& run) {
@@ -152,6 +180,11 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
     total.value = *quantity.of(input, run);
     if (quantity.peak != nullptr && total.error) {
       *total.error += (run.peaks.*quantity.peak).sampling_error();
+    }
+    if (quantity.range != nullptr && total.error) {
+      const double elsewhere =
+          excess_elsewhere(run, beside, total.value, quantity.range, quantity.safety);
+      total.error = std::max(*total.error, elsewhere);
     }
     if (total.error && *total.error > quantity.largest_share * std::abs(total.value)) {
       total.error.reset();

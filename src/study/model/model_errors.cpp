@@ -176,7 +176,7 @@ class Study {
     double n_runs = 1.0;
     for (const Variant& variant : variants) n_runs += static_cast<double>(variant.cases.size());
     const double all =
-        std::max(share_of_work * work_with_others * counted_work(result_), least_work);
+        std::max(share_of_work * work_with_others * counted_work(input_, result_), least_work);
     cells_ = affordable_cells(input_, input_.end_time, most_cells, all / (dearer * n_runs));
     const std::optional<Result> base = on_cells(input_, input_.end_time);
     for (const Variant& variant : variants) {

@@ -165,7 +165,8 @@ const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
   // Natural modes may take another matrix, which is not stated.
   if (used.decomposition > 0.0) sample.memory += sizeof(double) * unknowns * unknowns;
   const bool is_one = input.solver.method == Method::central_difference;
-  StepLimit limit(affordable / work_with_others / unknowns / (is_one ? 1.0 : evaluations_per_step));
+  StepLimit limit(affordable / work_with_others / unknowns / evaluation_cost(input) /
+                  (is_one ? 1.0 : evaluations_per_step));
   AllRows all;
   NoRows none;
   sample.result = simulate(std::move(resolved), {}, finest(input) == nullptr ? &limit : nullptr,
@@ -179,7 +180,7 @@ const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
         seconds_per_row * static_cast<double>(result.n_shape_rows + 2 * result.n_history_rows);
   }
   sample.seconds *= parts;
-  sample.steps = parts * (counted_work(result) - sample.decomposition);
+  sample.steps = parts * (counted_work(input, result) - sample.decomposition);
   samples_.push_back(std::move(sample));
   return samples_.back();
 }

@@ -39,6 +39,10 @@ constexpr double largest_refinement = 4.0;  // while less than half of the sub-i
 constexpr double margin = 1.1;
 // A step that moves every mode in closed form takes as long as these evaluations.
 constexpr double evaluations_per_step_in_modes = 3.0;
+// Evaluations of a method that explicit contact takes per step, and the phase of the highest
+// frequency that one covers.
+constexpr double evaluations_per_explicit_step = 8.0;
+constexpr double phase_per_explicit_step = 2.0;
 
 double default_tolerance(const Refinement& refinement) {
   return default_share_of_contact * refinement.contact_time();
@@ -108,10 +112,10 @@ class Search {
     options_.make(level.input, cases_beside(yields_ ? level.input : input), rows_if(keeps_rows),
                   level.result, level.beside);
     level.input.output = input.output;
-    work_ += counted_work(level.result);
+    work_ += counted_work(level.input, level.result);
     if (options_.finished) options_.finished(level.input, level.result);
     for (const RunBeside& other : level.beside) {
-      work_ += counted_work(other.result);
+      work_ += counted_work(other.of.input, other.result);
       if (options_.finished) options_.finished(other.of.input, other.result);
     }
     return level;
@@ -161,8 +165,27 @@ class Search {
     if (yielded == yields_ || !best_->result.outcome.completed()) return false;
     may_change_model_ = yields_;  // back at most once
     choose(yielded);
+    if (!yielded && work_ + work_of_contact_beside_modes() > work_limit_) {
+      choose(true);
+      return false;
+    }
     best_.reset();
     return true;
+  }
+
+  // Natural modes move free flight alone where a section might yield: contacts as long as those of
+  // the best run take explicit steps, which the stiffest of the elements limits.
+  double work_of_contact_beside_modes() const {
+    double in_contact = 0.0;
+    for (const SubImpact& s : best_->result.sub_impacts) {
+      in_contact += s.end.value_or(best_->result.outcome.time) - s.start;
+    }
+    const Case& first = refinement_->first();
+    const ResolvedSettings used = resolve(first).settings();
+    const double steps = in_contact * used.joined_frequency / phase_per_explicit_step;
+    return work_with_others *
+           (used.decomposition + evaluation_cost(first) * steps * evaluations_per_explicit_step *
+                                     static_cast<double>(used.n_unknowns));
   }
 
   double largest_error() const {
@@ -179,11 +202,12 @@ class Search {
       const double sizes =
           static_cast<double>(mesh_count(level.input)) / mesh_count(other.of.input);
       if (sizes > 1.0) {
-        growth =
-            std::log(counted_work(level.result) / counted_work(other.result)) / std::log(sizes);
+        growth = std::log(counted_work(level.input, level.result) /
+                          counted_work(other.of.input, other.result)) /
+                 std::log(sizes);
       }
     }
-    return work_with_others * counted_work(best_->result) *
+    return work_with_others * counted_work(best_->input, best_->result) *
            std::pow(ratio, std::clamp(growth, 1.0, 4.0));
   }
 
@@ -337,10 +361,22 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
   return chosen;
 }
 
-double counted_work(const Result& result) {
+double evaluation_cost(const Case& input) {
+  const bool central = input.solver.method == Method::central_difference;
+  const bool yields = may_yield(input);
+  if (input.solver.method == Method::exponential && !yields) return 1.0;
+  const bool in_elements = input.model.mesh != MeshKind::cells;
+  double cost = central ? 1.0 : 2.0;
+  if (!input.scene.beam.damping.is_none()) cost *= 2.0;
+  if (yields && input.scene.beam.is_round()) cost *= 2.0;
+  if (yields && in_elements) cost *= 2.0;
+  return cost;
+}
+
+double counted_work(const Case& input, const Result& result) {
   const Work& work = result.work;
-  auto evaluations = static_cast<double>(work.right_hand_sides);
-  if (result.given.solver.method == Method::exponential) {
+  auto evaluations = evaluation_cost(input) * static_cast<double>(work.right_hand_sides);
+  if (input.solver.method == Method::exponential) {
     evaluations +=
         evaluations_per_step_in_modes * static_cast<double>(work.steps + work.rejected_steps);
   }

@@ -27,7 +27,7 @@ Runs runs_made(const Case& input, std::vector<double>* work = nullptr) {
   RunRequest request;
   request.finished = [&](const Case& run, const Result& result) {
     runs.push_back(words(mesh_words(run), descriptor_of(run.solver.method).name));
-    if (work) work->push_back(counted_work(result));
+    if (work) work->push_back(counted_work(run, result));
   };
   run_as_asked(input, {}, std::move(request));
   return runs;

@@ -140,7 +140,9 @@ TEST(AWish, StopsAtTheLimitOfWork) {
   input.accuracy.work_limit = 3e6;
   double work = 0.0;
   WithinOptions options;
-  options.finished = [&](const Case&, const Result& result) { work += counted_work(result); };
+  options.finished = [&](const Case& run, const Result& result) {
+    work += counted_work(run, result);
+  };
   const WithinRun run = simulate_within(input, {}, options);
   EXPECT_FALSE(run.result.tolerance->met);
   EXPECT_EQ(run.result.tolerance->key, "accuracy.work_limit");

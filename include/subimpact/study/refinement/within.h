@@ -32,9 +32,14 @@ struct WithinOptions {
 /// WithinOptions::make, or what it stands in place of.
 JudgedRunMaker maker_of(const WithinOptions& options);
 
-/// The cost of a run: evaluations of the right-hand side times unknowns of the beam, with natural
-/// modes, the steps in them counted in the same unit.
-double counted_work(const Result& result);
+/// How long an evaluation of the right-hand side takes, per unknown, over one of central differences
+/// on cells: powers of two, for methods that keep an error, damping, round sections that yield, and
+/// elements, of which several sections each yield (validation/truth/within).
+double evaluation_cost(const Case& input);
+
+/// The cost of a run: evaluations of the right-hand side times their cost and the unknowns of the
+/// beam, with natural modes, the steps in them counted in the same unit (1 to 3 ns).
+double counted_work(const Case& input, const Result& result);
 
 /// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
 /// (ResolvedSettings::contact_time), and the work is limited to this: about 5 s on one core.
