@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "bindings.h"
+#include "case/keys/materials.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/results.h"
@@ -93,6 +94,14 @@ std::string resolved_summary(const LoadedCase& loaded) {
 }  // namespace
 
 void bind_cases(py::module_& module) {
+  module.def("materials", [] {
+    py::list list;
+    for (const Material& m : materials()) {
+      list.append(
+          py::make_tuple(m.name, m.density, m.youngs_modulus, m.poisson, m.yield_stress, m.source));
+    }
+    return list;
+  });
   module.def("keys", [] {
     py::list all;
     for (const CaseKey& key : case_keys()) all.append(key_as_dict(key));

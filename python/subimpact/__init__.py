@@ -25,7 +25,7 @@ except ModuleNotFoundError as error:
         name=error.name,
     ) from None
 from ._errors import CaseError, OutputError, PlanError, ResultsError, StoreError
-from .case import Case, Key, keys
+from .case import Case, Key, Material, keys, materials
 from .derivatives import Sensitivity, sensitivity
 from .result import Result, columns, read_results
 from .running import run
@@ -35,6 +35,7 @@ __all__ = [
     "Case",
     "CaseError",
     "Key",
+    "Material",
     "OutputError",
     "Plan",
     "PlanError",
@@ -45,6 +46,7 @@ __all__ = [
     "__version__",
     "columns",
     "keys",
+    "materials",
     "read_results",
     "run",
     "sensitivity",

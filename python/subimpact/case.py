@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +36,22 @@ _KEYS = {key["name"]: Key(**key) for key in _core.keys()}
 def keys() -> dict[str, Key]:
     """All keys of a case by their names, as `subimpact keys` lists them."""
     return dict(_KEYS)
+
+
+@dataclass(frozen=True)
+class Material:
+    """What `beam.material` stands for, where the case does not give these values."""
+
+    name: str
+    density: float  #: kg/m3
+    youngs_modulus: float  #: Pa
+    poisson: float
+    yield_stress: float  #: Pa: the least of a standard, or typical
+    source: str
+
+
+#: The materials of `beam.material` by their names.
+materials = {values[0]: Material(*values) for values in _core.materials()}
 
 
 def _check_name(key: object) -> None:
@@ -217,6 +234,14 @@ class Case:
         except CaseError as error:
             return f"<Case, not whole: {error.problems[0]}>"
         return "<Case " + ", ".join(f"{key}={value!r}" for key, value in values.items()) + ">"
+
+    def _repr_html_(self) -> str:
+        """A table of the keys that the case gives, for notebooks."""
+        rows = "".join(
+            f"<tr><td>{key}</td><td>{escape(text_of(value))}</td><td>{escape(_KEYS[key].unit)}</td></tr>"
+            for key, value in self.given().items()
+        )
+        return f"<table><tr><th>key</th><th>value</th><th>unit</th></tr>{rows}</table>"
 
     def check(self) -> None:
         """Raises CaseError unless the whole case is allowed."""

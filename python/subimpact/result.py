@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 import os
+import tempfile
 from functools import cached_property
+from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core
@@ -16,6 +19,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     Table = npt.NDArray[np.void]
+
+
+TABLES = ("sub_impacts", "transitions", "history", "sections", "points", "shapes", "envelope", "strikes")
 
 
 def columns() -> str:
@@ -149,6 +155,29 @@ class Result:
     def report(self) -> str:
         """The summary and the table of sub-impacts, as `subimpact run` prints them."""
         return self._finished.report()
+
+    def to_pandas(self, table: str = "sub_impacts") -> Any:
+        """A table as a pandas.DataFrame: "sub_impacts", "history", "sections" ..."""
+        import pandas
+
+        if table not in TABLES:
+            raise ValueError(f"table is {table!r}; allowed: {', '.join(TABLES)}")
+        return pandas.DataFrame(getattr(self, table))
+
+    def __getstate__(self) -> dict[str, bytes]:
+        with tempfile.TemporaryDirectory() as directory:
+            self.write(directory)
+            return {path.name: path.read_bytes() for path in Path(directory).iterdir() if path.is_file()}
+
+    def __setstate__(self, files: dict[str, bytes]) -> None:
+        with tempfile.TemporaryDirectory() as directory:
+            for name, content in files.items():
+                Path(directory, name).write_bytes(content)
+            self._finished = _core.read_results(directory)
+
+    def _repr_html_(self) -> str:
+        """The summary and the sub-impacts as `subimpact run` prints them, for notebooks."""
+        return f"<pre>{escape(self.report())}</pre>"
 
     def __repr__(self) -> str:
         return f"<Result {self._finished.brief()}>"

@@ -3,6 +3,7 @@
 import csv
 import math
 import os
+import pickle
 import signal
 import threading
 import time
@@ -213,3 +214,41 @@ def test_a_failure_is_a_result(yielding):
     result = si.run(yielding.changed({"solver.step": 3e-6, "study.beyond_critical": True}))
     assert result.outcome in ("unstable", "inaccurate", "left_validity")
     assert result.message and not result.usable
+
+
+def test_a_result_is_the_same_after_pickling(elastic):
+    result = si.run(elastic)
+    again = pickle.loads(pickle.dumps(result))
+    assert again.summary == result.summary
+    for name in TABLES:
+        one, other = getattr(result, name), getattr(again, name)
+        if name == "shapes":  # whose file has nine digits
+            for column in one.dtype.names:
+                np.testing.assert_allclose(other[column], one[column], rtol=1e-8)
+        else:
+            assert other.tobytes() == one.tobytes(), name
+
+
+def test_a_table_becomes_one_of_pandas_by_its_name(elastic):
+    pandas = pytest.importorskip("pandas")
+    result = si.run(elastic, error_bars="off")
+    frame = result.to_pandas("history")
+    assert isinstance(frame, pandas.DataFrame)
+    assert np.array_equal(frame["force_N"], result.history["force_N"])
+    with pytest.raises(ValueError, match="allowed: sub_impacts"):
+        result.to_pandas("forces")
+
+
+def test_notebooks_show_the_keys_of_a_case_with_units_and_the_summary_of_a_result(elastic):
+    assert "<td>striker.velocity</td>" in elastic._repr_html_()
+    assert "m/s" in elastic._repr_html_()
+    assert "sub-impacts" in si.run(elastic)._repr_html_()
+
+
+def test_materials_are_those_of_the_case_files(elastic):
+    steel = si.materials["S355"]
+    case = si.Case(beam={"material": "S355", "length": 0.5, "width": 0.02, "thickness": 0.01},
+                   striker={"mass": 0.1, "velocity": 1.0, "nose_radius": 0.01}, time={"end": 1e-4})
+    for key in ("density", "youngs_modulus", "poisson", "yield_stress"):
+        assert case[f"beam.{key}"] == getattr(steel, key)
+    assert len(si.materials) == 12

@@ -91,7 +91,15 @@ Result predicted() {
   result.sub_impacts[1].start_scatter = 2.5e-6;
   result.sub_impacts[1].end_scatter = 3e-6;
   result.predictability = Predictability{
-      1, "its start scatters", 1.0 / 3.0 * 1e-3, 1.63e-6, {{0.0, 3e-6, 1e-4}, {{}, {}, {}}}, 0.012};
+      1,
+      "its start scatters",
+      1.0 / 3.0 * 1e-3,
+      1.63e-6,
+      {{0.0, 3e-6, 1e-4}, {{}, {}, {}}},
+      0.012,
+      {{"peak_force_N", 900.0, 12.0, 880.0, 921.0}, {"permanent_set_m", 0.0, 0.0, 0.0, 0.0}},
+      64,
+      "101 cells"};
   return result;
 }
 
@@ -120,7 +128,16 @@ TEST(Predictability, IsPrintedWithTheReasonWhereItEnds) {
   const std::string table = scatter_table(predicted());
   expect_in(table, "333.3 +- 1.7", "from here on not predictable: its start scatters\n", "zone 1");
   expect_in(predictability_words(predicted()), "1 of 3 sub-impacts, up to 333.3 us");
-  expect_in(run_summary(read("").value, predicted()), "predictable");
+  expect_in(run_summary(read("").value, predicted()), "predictable", "scatter: force",
+            "900 +- 12 N");
+}
+
+TEST(Samples, ArePrintedWithTheirNumberAndMeshAndWithoutWhatThereIsNot) {
+  const std::vector<Answer> answers = scatter_answers(predicted());
+  ASSERT_EQ(answers.size(), 1u);  // there is no permanent set
+  EXPECT_EQ(answers[0].name, "scatter: force");
+  EXPECT_EQ(answers[0].value, "900 +- 12 N");
+  expect_in(answers[0].note, "from 880 to 921", "64 runs on 101 cells");
 }
 
 Sensitivity sample_study() {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -108,6 +109,7 @@ struct Beam {
   double angular_velocity = 0.0;     ///< rad/s at t = 0, about the pivot
   std::optional<double> pivot = {};  ///< as a fraction of the length
   bool fixed = false;                ///< a rigid beam that does not move: a plane or a wall
+  std::optional<std::string> material = {};  ///< where values of the material come from; no effect
 
   /// By default the pinned end, else the middle.
   double used_pivot() const {

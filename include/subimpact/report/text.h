@@ -12,7 +12,7 @@
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
 #include "subimpact/study/overlay.h"
-#include "subimpact/study/refinement/forecast.h"
+#include "subimpact/study/forecast.h"
 #include "subimpact/study/sensitivity/sensitivity.h"
 
 namespace subimpact {
@@ -45,7 +45,8 @@ std::string sub_impact_table(const Result& result, bool fold = true);
 std::string predictability_words(const Result& result);
 
 /// One line per sub-impact and one per zone, if numbers of the case scatter: starts and ends with
-/// their standard deviations; a line gives the reason where sub-impacts cannot be predicted.
+/// their standard deviations; a line gives the reason where sub-impacts cannot be predicted. Then
+/// scatter_answers().
 std::string scatter_table(const Result& result);
 
 /// Why contact is over, or how close striker and beam come after the last sub-impact.
@@ -71,6 +72,9 @@ struct Answer {
 /// Who struck whom, how many sub-impacts and how certain, restitution, largest force, impulse by
 /// zone, dent, permanent set, energies that add up to the initial one, whether contact is over.
 std::vector<Answer> answers(const Case& input, const Result& result);
+
+/// Numbers of the strike as a whole over the samples of a case with scatter: "scatter: force".
+std::vector<Answer> scatter_answers(const Result& result);
 
 /// How much a measured force and the computed one differ: shift, filter, peak and impulse.
 std::vector<Answer> answers(const Overlay& overlay);

@@ -149,6 +149,16 @@ struct Predictability {
   };
   std::vector<Zone> zones;
   std::optional<double> striker_velocity_scatter;  ///< m/s, after the last sub-impact
+
+  /// A number of the strike as a whole over samples of the numbers that scatter.
+  struct Sampled {
+    std::string name;  ///< of its column in strikes.csv
+    double mean = 0.0, deviation = 0.0;
+    double quantile_5 = 0.0, quantile_95 = 0.0;
+  };
+  std::vector<Sampled> totals;
+  std::size_t n_samples = 0;
+  std::string samples_mesh;  ///< in words: coarser than that of the run where it would take long
 };
 
 /// The assessment of a whole run.

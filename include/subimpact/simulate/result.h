@@ -53,6 +53,7 @@ struct SectionRow {
   double curvature;          ///< kappa, 1/m
   double moment;             ///< M, N m; E I kappa while elastic
   double plastic_curvature;  ///< kappa - M/(E I), 1/m
+  double strain;             ///< -kappa h/2, of the outer fibre behind; tension: above 0
 };
 
 /// One row of points.csv: a point of the beam's axis at the time of a history row.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "case/keys/case_choices.h"
+#include "case/keys/materials.h"
 #include "case/shifted_case.h"
 #include "subimpact/simulate/options.h"
 
@@ -223,6 +224,12 @@ std::vector<Choice> table_choices() {
   return choices;
 }
 
+std::vector<Choice> material_choices() {
+  std::vector<Choice> choices;
+  for (const Material& material : materials()) choices.push_back({material.name, material.source});
+  return choices;
+}
+
 // "adams, bdf: "step-end"; others: "located"", for two values of which most methods take `located`.
 template <class Member>
 std::string by_method(Member member) {
@@ -297,6 +304,7 @@ std::vector<CaseKey> make_case_keys() {
   return {
     row("title", "", any_value, "name of the case", "\"\"", AT(title)),
 
+    with_choices(row("beam.material", "", any_value, "gives density, modulus, Poisson's ratio and yield stress, where their keys do not: nominal values, with the source of the yield stress", "none", AT(scene.beam.material)), material_choices()),
     row("beam.length", "m", positive, "length of the beam", required, AT(scene.beam.length)),
     not_zero(row("beam.width", "m", positive, "width of a rectangular section, across the strike", "none; needed without beam.section", AT(scene.beam.width))),
     not_zero(row("beam.thickness", "m", positive, "thickness of a rectangular section, in the direction of the strike", "none; needed without beam.section", AT(scene.beam.thickness))),

@@ -13,6 +13,7 @@
 
 #include <toml++/toml.h>
 
+#include "case/keys/materials.h"
 #include "case/keys/slips.h"
 #include "case/keys/units.h"
 #include "case/meshes.h"
@@ -128,6 +129,7 @@ class Reader {
   }
 
   LoadedCase finish(const KeyChooser& choose) {
+    give_values_of_material();
     std::map<std::string, std::string> places;
     Case read;
     for (const CaseKey& key : case_keys()) {
@@ -227,6 +229,24 @@ class Reader {
   bool is_given(const char* key, bool in_file) const {
     const auto given = given_.find(key);
     return given != given_.end() && given->second.in_file == in_file;
+  }
+
+  // Values that the case gives itself go before those of its material, but the material of a
+  // setting goes before the values of the file.
+  void give_values_of_material() {
+    const auto given = given_.find("beam.material");
+    if (given == given_.end()) return;
+    const auto* name = std::get_if<std::string>(&given->second.value);
+    const Material* material = name != nullptr ? find_material(*name) : nullptr;
+    if (material == nullptr) return;  // refused below
+    const bool in_file = given->second.in_file;
+    for (const auto& [key, value] : material_values) {
+      if (given_.contains(key) && (in_file || !given_.at(key).in_file)) continue;
+      const bool is_given_otherwise =
+          key == std::string_view("beam.poisson") && given_.contains("contact.beam_poisson");
+      if (is_given_otherwise) continue;
+      given_[key] = {material->*value, given->second.place, in_file, {}};
+    }
   }
 
   // A case that names the size of a mesh and no mesh means that mesh. Settings go before the file.

@@ -165,7 +165,8 @@ const RunTable<SectionRow>& run_table() {
        {"position_m", "position of the section along the beam", &SectionRow::position},
        {"curvature_per_m", "curvature", &SectionRow::curvature},
        {"moment_Nm", "bending moment M, E I kappa while elastic", &SectionRow::moment},
-       {"plastic_curvature_per_m", "curvature - M/(E I)", &SectionRow::plastic_curvature}},
+       {"plastic_curvature_per_m", "curvature - M/(E I)", &SectionRow::plastic_curvature},
+       {"strain", "of the outer fibre on the back, as a strain gauge there reads it, tension positive; on the struck side the negative", &SectionRow::strain}},
       &Result::section_history, n_sections, n_history_rows, {&SectionRow::curvature, &SectionRow::moment}};
   return table;
 }

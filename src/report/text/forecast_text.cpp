@@ -18,7 +18,8 @@ const Record<ForecastRun> run_record = {
     {"mesh", "in words", &ForecastRun::mesh},
     {"method", "as in case files", &ForecastRun::method},
     {"processor_s", "processor time", &ForecastRun::seconds},
-    {"is_made", "whether explain has made it to measure this", &ForecastRun::is_made}};
+    {"is_made", "whether explain has made it to measure this", &ForecastRun::is_made},
+    {"runs", "of which this is the time of all", &ForecastRun::n_runs}};
 
 const Record<ForecastCost> cost_record = {
     {"processor_s", "processor time of all", &ForecastCost::processor_seconds},
@@ -55,14 +56,14 @@ std::string forecast_text(const RunForecast& forecast) {
   };
   line("time", fmt::format("about {}; of the processor {}", rough(wall), rough(processor)));
   line("memory", fmt::format("at most about {:.0f} MB", std::ceil(MB * forecast.memory)));
-  line("runs", fmt::format("{} on {}, up to {} at a time", runs.size(),
+  int n_runs = 0;
+  for (const ForecastRun& run : runs) n_runs += run.n_runs;
+  line("runs", fmt::format("{} on {}, up to {} at a time", n_runs,
                            counted(runs.back().level, "level"), forecast.jobs));
   if (least.processor_seconds < certain_within * most.processor_seconds) {
     line("range", fmt::format("{} to {}, the longer the fewer sub-impacts become certain",
                               rough(least.wall_seconds), rough(most.wall_seconds)));
   }
-  if (!forecast.first.input.scatter.empty())
-    line("without", "the runs that estimate the effect of scatter");
   if (const int strikes = forecast.first.input.strikes; strikes > 1)
     line("without", fmt::format("strikes 2 to {}, which each take about as long", strikes));
   std::size_t width = 30;
@@ -74,7 +75,8 @@ std::string forecast_text(const RunForecast& forecast) {
   row("level", "mesh", "method", "time of the processor");
   int level = 0;
   for (const ForecastRun& run : runs) {
-    const std::string role = run.is_beside        ? "  beside it"
+    const std::string role = run.n_runs > 1       ? fmt::format("  scatter, {} runs", run.n_runs)
+                             : run.is_beside      ? "  beside it"
                              : run.level == level ? "  again, for its rows"
                                                   : fmt::format("{}", run.level);
     level = run.level;

@@ -98,7 +98,12 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
   if (result.error_estimate && result.error_estimate->finer_meshes) {
     line("finer meshes", finer_meshes_words(result));
   }
-  if (result.predictability) line("predictable", predictability_words(result));
+  if (result.predictability) {
+    line("predictable", predictability_words(result));
+    for (const Answer& answer : scatter_answers(result)) {
+      text += labelled(answer.name, answer.value + ": " + answer.note);
+    }
+  }
   for (const std::string& warning : result.warnings) line("warning", warning);
   return verbose ? text + details(input, result) : text;
 }

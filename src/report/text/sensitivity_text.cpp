@@ -21,6 +21,18 @@ constexpr std::size_t narrowest = 9;
 
 using Row = SensitivityRow;
 
+struct {
+  const char* column;
+  const char* name;
+  Measure measure;
+} constexpr sampled_totals[] = {{"sub_impacts", "sub-impacts", as_ratio},
+                                {"restitution", "restitution", as_ratio},
+                                {"peak_force_N", "force", as_force},
+                                {"impulse_Ns", "impulse", as_impulse},
+                                {"dent_m", "dent", as_length},
+                                {"permanent_set_m", "set", as_length},
+                                {"striker_velocity_m_per_s", "velocity", as_velocity}};
+
 auto by_key(std::size_t key, double Derivative::*member) {
   return [=](const Row& row) {
     return row.by_key[key] ? std::optional((*row.by_key[key]).*member) : std::nullopt;
@@ -123,6 +135,30 @@ std::string predictability_words(const Result& result) {
                      duration_text(found.horizon), scatter, found.reason);
 }
 
+std::vector<Answer> scatter_answers(const Result& result) {
+  const Predictability& found = *result.predictability;
+  std::vector<Answer> answers;
+  for (const auto& [column, name, measure] : sampled_totals) {
+    const auto total = std::ranges::find(found.totals, column, &Predictability::Sampled::name);
+    if (total == found.totals.end()) continue;
+    if (total->mean == 0.0 && total->deviation == 0.0) continue;  // no dent, no set
+    const ReadUnit unit =
+        unit_for(std::max(std::abs(total->quantile_5), std::abs(total->quantile_95)), measure);
+    const auto number = [&](double value) { return with_digits(unit.per_si * value, 3); };
+    const std::string mean = total->deviation > 0.0 ? with_scatter(unit.per_si * total->mean,
+                                                                   unit.per_si * total->deviation)
+                                                    : with_digits(unit.per_si * total->mean, 6);
+    answers.push_back({fmt::format("scatter: {}", name), with_unit(mean, unit),
+                       fmt::format("nine of ten from {} to {}", number(total->quantile_5),
+                                   number(total->quantile_95))});
+  }
+  if (!answers.empty()) {
+    answers.front().note += fmt::format("; mean +- standard deviation of {} runs on {}",
+                                        found.n_samples, found.samples_mesh);
+  }
+  return answers;
+}
+
 std::string scatter_table(const Result& result) {
   const Predictability& found = *result.predictability;
   std::string text =
@@ -146,8 +182,10 @@ std::string scatter_table(const Result& result) {
              scattered(zones[z].end, zone.end_scatter)) +
         fmt::format("  impulse {} N s\n", with_scatter(zones[z].impulse, zone.impulse_scatter));
   }
-  return text + fmt::format("striker, at the end: {} m/s\n",
-                            with_scatter(result.striker_velocity, found.striker_velocity_scatter));
+  for (const Answer& answer : scatter_answers(result)) {
+    text += fmt::format("{} {}: {}\n", answer.name, answer.value, answer.note);
+  }
+  return text;
 }
 
 }  // namespace subimpact

@@ -121,17 +121,30 @@ void LossQuadrature::read_acceleration(Node& node, StruckBeam& beam) {
   node.acceleration.resize(beam.n_positions());
   beam.set_time(node.time);
   beam.acceleration_at(node.y, node.acceleration);
+  if (!beam.loads().varies()) return;
+  const std::span<const double> y = node.y;
+  const std::size_t n = beam.n_positions();
+  node.power_of_change = {beam.loads().power_of_change(beam.beam_positions(y)),
+                          beam.loads().power_of_change(beam.beam_positions(y.subspan(n))),
+                          beam.loads().power_of_change(beam.beam_positions(node.acceleration))};
 }
 
 Losses LossQuadrature::between(const Node& a, const Node& b, bool quintic, StruckBeam& beam) {
   const std::size_t n = beam.n_positions();
   const double h = b.time - a.time;
   const ContactState& contact = beam.contact();
+  const bool has_damping = beam_by_quadrature_ || (contact.is_closed() && contact.is_damped());
   Losses sum;
   state_.resize(2 * n);
   for (std::size_t k = 0; k < n_points; ++k) {
     const double s = gauss<n_points>.points[k];
     const HermiteWeights w = quintic ? quintic_weights(s, h) : cubic_weights(s, h);
+    const double weight = h * gauss<n_points>.weights[k];
+    for (std::size_t of = 0; of < 3; ++of) {
+      sum.of_change += weight * (w.position[0][of] * a.power_of_change[of] +
+                                 w.position[1][of] * b.power_of_change[of]);
+    }
+    if (!has_damping) continue;
     for (std::size_t i = 0; i < n; ++i) {
       const auto at = [&](const double(&weights)[2][3]) {
         return weights[0][0] * a.y[i] + weights[0][1] * a.y[n + i] +
@@ -140,10 +153,6 @@ Losses LossQuadrature::between(const Node& a, const Node& b, bool quintic, Struc
       };
       state_[i] = at(w.position);
       state_[n + i] = at(w.velocity);
-    }
-    const double weight = h * gauss<n_points>.weights[k];
-    if (beam.loads().varies()) {
-      sum.of_change += weight * beam.loads().power_of_change(beam.beam_positions(state_));
     }
     if (contact.is_closed()) {
       sum.contact +=
@@ -160,7 +169,7 @@ Losses LossQuadrature::halved(const Node& a, const Node& b, const ObservedStep& 
                               StruckBeam& beam, int depth) {
   const Losses whole = between(a, b, true, beam);
   const Losses rough = between(a, b, false, beam);
-  Node middle{0.5 * (a.time + b.time), {}, {}};
+  Node middle{0.5 * (a.time + b.time), {}, {}, {}};
   const bool has_middle = middle.time > a.time && middle.time < b.time;
   if (depth == most_halvings_of_loss || !has_middle) return whole;
   const bool is_rough = needs_halving(whole.contact, rough.contact, tolerance_) ||
@@ -187,8 +196,8 @@ Losses LossQuadrature::over(const ObservedStep& step, double t, const State& y, 
   const ContactState& contact = beam.contact();
   const bool damped_contact = contact.is_damped() && contact.is_closed();
   if (beam_by_quadrature_ || damped_contact || beam.loads().varies()) {
-    Node start{step.t0(), step.y0(), {}};
-    Node end{t, y, {}};
+    Node start{step.t0(), step.y0(), {}, {}};
+    Node end{t, y, {}, {}};
     read_acceleration(start, beam);
     read_acceleration(end, beam);
     sum = halved(start, end, step, beam, 0);

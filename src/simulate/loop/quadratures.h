@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -67,6 +68,8 @@ class LossQuadrature {
     double time;
     State y;
     std::vector<double> acceleration;
+    // (df/dt) times positions, velocities and accelerations: that between nodes follows from them.
+    std::array<double, 3> power_of_change;
   };
   static void read_acceleration(Node& node, StruckBeam& beam);
   Losses halved(const Node& a, const Node& b, const ObservedStep& step, StruckBeam& beam,

@@ -79,6 +79,7 @@ void Recorder::on_approach(double end, StruckBeam& beam) {
 void Recorder::keep_fields(const RunParts& parts) {
   const double length = parts.problem.beam.length;
   sections_ = sections_at(parts.given.output.sections, length, parts.beam.mesh());
+  half_height_ = 0.5 * parts.problem.beam.height();
   const double end = parts.beam.mesh().symmetric() ? 0.5 * length : length;
   for (int i = 0; i < n_rotations; ++i) {
     const auto rotation = parts.beam.mesh().rotation_at(end * i / (n_rotations - 1));
@@ -406,7 +407,8 @@ void Recorder::add_section_rows(double time, const State& y, Accounts& accounts)
     const double kappa = bending.curvatures[section];
     const double moment = bending.moments[section];
     rows_.add(SectionRow{time, beam.mesh().section_positions()[section], kappa, moment,
-                         plastic_curvature(kappa, moment, beam.sections().stiffness())});
+                         plastic_curvature(kappa, moment, beam.sections().stiffness()),
+                         -half_height_ * kappa});
   }
 }
 

@@ -115,6 +115,7 @@ class Recorder final : public RunObserver {
   State state_;
   SectionCorrection correction_;           // of a state within a step
   std::vector<std::size_t> sections_;      // whose bending is kept
+  double half_height_ = 0.0;               // m, of the section
   std::unique_ptr<FieldRecorder> fields_;  // none: no field is kept
   std::vector<SparseFunctional> rotations_;
   std::vector<long> steps_in_contact_;

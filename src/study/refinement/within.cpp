@@ -368,6 +368,8 @@ double evaluation_cost(const Case& input) {
   const bool in_elements = input.model.mesh != MeshKind::cells;
   double cost = central ? 1.0 : 2.0;
   if (!input.scene.beam.damping.is_none()) cost *= 2.0;
+  const auto varies = [](const PointForce& force) { return force.table.size() > 1; };
+  if (std::ranges::any_of(input.scene.beam.forces, varies)) cost *= 4.0;
   if (yields && input.scene.beam.is_round()) cost *= 2.0;
   if (yields && in_elements) cost *= 2.0;
   return cost;

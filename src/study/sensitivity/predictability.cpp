@@ -216,7 +216,9 @@ void set_predictability(Result& result, const Sensitivity& study, const Scatter&
   const bool is_same = n_same == all.size() && n_same == study.base.sub_impacts.size();
   if (!is_same && found.first_unpredictable.value_or(n_same) >= n_same) {
     found.first_unpredictable = n_same;
-    found.reason = "a run at a tighter tolerance has other sub-impacts from here on";
+    found.reason =
+        "the runs for derivatives, at a tighter tolerance or on a coarser mesh, have other "
+        "sub-impacts from here on";
   }
   const std::size_t n = std::min(found.first_unpredictable.value_or(all.size()), all.size());
   for (std::size_t i = 0; i < n; ++i) {
@@ -246,7 +248,8 @@ std::vector<std::string> scattering_keys(const Case& input) {
 void add_predictability(Result& result, const Case& input, SensitivityOptions options) {
   options.keys = scattering_keys(input);
   if (options.keys.empty()) return;
-  const Sensitivity study = sensitivity(input, options);
+  const double n_runs = runs_for_derivatives(static_cast<double>(options.keys.size()));
+  const Sensitivity study = sensitivity(affordable_case(sensitivity_case(input), n_runs), options);
   if (study.interrupted) {
     result.warnings.emplace_back("interrupted before the scatter of the event times was known");
     return;
@@ -258,6 +261,7 @@ void add_predictability(Result& result, const Case& input, SensitivityOptions op
     return;
   }
   set_predictability(result, study, input.scatter);
+  add_samples(*result.predictability, input, options);
 }
 
 }  // namespace subimpact

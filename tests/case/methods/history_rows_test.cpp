@@ -102,6 +102,19 @@ TEST(SectionHistory, IsOfTheSectionNearestToThePositionOrItsMirrorImage) {
   EXPECT_NEAR(result.section_history[3].position, 0.0, 4.0 * half_cell);  // no section at the end
 }
 
+TEST(SectionHistory, HasTheStrainThatAGaugeOnTheBackReads) {
+  Case input = case_with_sections({0.5, 0.3});
+  input.model.section = SectionKind::elastic;
+  const Beam& beam = input.scene.beam;
+  double largest = 0.0;
+  for (const SectionRow& row : simulate(input).section_history) {
+    const double of_moment = -row.moment * 0.5 * beam.thickness / beam.bending_stiffness();
+    EXPECT_NEAR(row.strain, of_moment, 1e-9 * std::abs(of_moment));
+    largest = std::max(largest, row.strain);
+  }
+  EXPECT_GT(largest, 1e-3);  // the back of the struck section is in tension
+}
+
 TEST(SectionHistory, FollowsTheSectionLaw) {
   const Case input = case_with_sections({0.5, 0.45});
   const Beam& beam = input.scene.beam;

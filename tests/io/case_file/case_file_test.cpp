@@ -86,6 +86,22 @@ TEST(CaseFile, TakesSettingsBeforeItsOwnLinesAndTheLastOfTwo) {
   }
 }
 
+TEST(CaseFile, AMaterialGivesTheValuesThatTheCaseDoesNot) {
+  const std::string text =
+      "[beam]\nmaterial = \"S355\"\nlength = 1\nwidth = 0.02\n"
+      "thickness = 0.01\nyield_stress = 4e8\n[striker]\nmass = 1\n"
+      "velocity = 1\nnose_radius = 0.01\n[time]\nend = 1e-3\n";
+  const Beam beam = read_case_text(text, "steel.toml").value.scene.beam;
+  EXPECT_EQ(beam.density, 7850.0);
+  EXPECT_EQ(beam.youngs_modulus, 210e9);
+  EXPECT_EQ(*beam.poisson, 0.3);
+  EXPECT_EQ(beam.yield_stress, 4e8) << "the case's own";
+  const Beam other = with({"beam.material=6061-T6"}, text).value.scene.beam;
+  EXPECT_EQ(other.density, 2700.0);
+  EXPECT_EQ(other.yield_stress, 240e6) << "a setting goes before the file";
+  EXPECT_EQ(with({"beam.material=6061-T6", "beam.density=1"}, text).value.scene.beam.density, 1.0);
+}
+
 TEST(CaseFile, ASettingCanTakeAKeyBackToItsDefault) {
   const LoadedCase loaded = with({"solver.step=1e-7", "model.segments=101", "solver.step=default"});
   EXPECT_FALSE(loaded.value.solver.step);
@@ -156,6 +172,7 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
   yielding.scene.striker.nose = NoseShape::sphere;
   yielding.scene.beam.pivot = 0.5;
   yielding.at_rest = true;
+  yielding.scene.beam.material = "S355";
   Case line = sheared;
   Contact& contact = line.scene.contact;
   contact.kind = ContactKind::line;

@@ -244,7 +244,8 @@ TEST_F(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
   const std::string without = timeline_figure(input, result).text();
   expect_in(without, "horizon = NaN");
   result.sub_impacts[1].start_scatter = 2.5e-6;
-  result.predictability = Predictability{1, "contacts merge", 1e-3 / 3.0, 2.5e-6, {}, {}};
+  result.predictability =
+      Predictability{1, "contacts merge", 1e-3 / 3.0, 2.5e-6, {}, {}, {}, 0, ""};
   const FigureScript figure = timeline_figure(input, result);
   expect_in(figure.text(), ",1,2.6e-07,2.5e-06\n");  // of a sub-impact: certain, error, scatter
   expect_in(figure.text(), "horizon = 0.0003333333");

@@ -257,7 +257,7 @@ TEST(HtmlReport, StatesWhatTheModelLeavesOutTheLargestPartFirst) {
 TEST(HtmlReport, ShowsTheScatterOfTimesAndTheHorizon) {
   Result result = sample_result_with_errors(3);
   result.sub_impacts[1].start_scatter = 2.5e-6;
-  result.predictability = Predictability{1, "contacts merge", 1e-3 / 3.0, 2e-6, {}, {}};
+  result.predictability = Predictability{1, "contacts merge", 1e-3 / 3.0, 2e-6, {}, {}, {}, 0, ""};
   expect_in(page_of(result), "500 ± 3", "not predictable: contacts merge", "\"horizon\":0.000333",
             "\"start_scatter\":2.5e-06");
 }

@@ -54,6 +54,31 @@ TEST(AChoice, IsCellsWhereAClampedEndMayYield) {
   EXPECT_EQ(chosen.input.solver.method, Method::central_difference);
 }
 
+TEST(AnEvaluation, CostsMoreWithDampingOnARoundSectionAndByAMethodThatKeepsAnError) {
+  Case input = paper_run(SectionKind::exact, 1e-3, 501, Method::central_difference);
+  EXPECT_EQ(evaluation_cost(input), 1.0);
+  input.scene.beam.section.shape = SectionShape::circle;
+  input.scene.beam.section.diameter = 0.01;
+  EXPECT_EQ(evaluation_cost(input), 2.0);
+  input.solver.method = Method::erk;
+  EXPECT_EQ(evaluation_cost(input), 4.0);
+  input.scene.beam.damping.stiffness = 1e-6;
+  EXPECT_EQ(evaluation_cost(input), 8.0);
+  input.model.section = SectionKind::elastic;  // which has no history to follow
+  EXPECT_EQ(evaluation_cost(input), 4.0);
+}
+
+// A soft tap: no section yields, and the search would go over to natural modes.
+TEST(ASearch, StaysOnCellsWhereContactBesideModesWouldTakeTooLong) {
+  Case input = wishing(1e-4, SectionKind::exact, 3e-4);
+  input.scene.striker.velocity = 0.05;
+  EXPECT_EQ(simulate_within(input, {}).input.model.mesh, MeshKind::hermite);
+  input.accuracy.work_limit = 1e6;
+  const WithinRun run = simulate_within(input, {});
+  EXPECT_EQ(run.input.model.mesh, MeshKind::cells);
+  EXPECT_TRUE(run.result.tolerance->met);
+}
+
 TEST(AChoice, SaysThatContactIsIntegratedWhereSectionsMightYield) {
   expect_in(choose_model(paper_run(SectionKind::exact, 1e-3), {}, false).reason, "nystrom");
   expect_not_in(choose_model(paper_run(SectionKind::elastic, 1e-3), {}, false).reason, "nystrom");

@@ -4,7 +4,7 @@ import argparse
 import subprocess
 import time
 import tomllib
-from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import Pool
 
 import numpy as np
 import subimpact as si
@@ -47,7 +47,8 @@ def finer_peaks(case, result, ratio):
     return {name: max(np.abs(run.envelope[side + name[3:]]).max() for side in ("max", "min")) for name in PEAKS}
 
 
-def study_scene(writer, seed, number, with_peaks):
+def study_scene(arguments):
+    writer, seed, number, with_peaks = arguments
     row = {"number": number, "refused": "", "seconds": 0.0, "peaks": {}}
     try:
         case = open_case(writer, seed, number)
@@ -97,17 +98,21 @@ def main():
     parser.add_argument("--first", type=int, default=0, help="number of the first scene")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--minutes", type=float, default=60.0, help="no further scenes after that time")
     parser.add_argument("--cost", action="store_true", help="no finer runs: refusals and cost alone")
     parser.add_argument("--verbose", action="store_true", help="name every peak that is not covered")
     options = parser.parse_args()
-    rows = []
-    with ProcessPoolExecutor(options.jobs) as workers:
-        started = [workers.submit(study_scene, options.scene_writer, options.seed, number, not options.cost)
-                   for number in range(options.first, options.first + options.scenes)]
-        for done in started:
-            rows.append(done.result())
+    scenes = [(options.scene_writer, options.seed, number, not options.cost)
+              for number in range(options.first, options.first + options.scenes)]
+    rows, begun = [], time.monotonic()
+    with Pool(options.jobs, maxtasksperchild=20) as workers:
+        for row in workers.imap_unordered(study_scene, scenes):
+            rows.append(row)
             if len(rows) % 20 == 0:
-                print(f"... {len(rows)} scenes", flush=True)
+                print(f"... {len(rows)} of {len(scenes)} scenes", flush=True)
+            if time.monotonic() - begun > 60 * options.minutes:
+                print(f"ended after {options.minutes:g} minutes")
+                break
     print_rows(rows, options.verbose)
 
 

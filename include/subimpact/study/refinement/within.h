@@ -32,9 +32,10 @@ struct WithinOptions {
 /// WithinOptions::make, or what it stands in place of.
 JudgedRunMaker maker_of(const WithinOptions& options);
 
-/// How long an evaluation of the right-hand side takes, per unknown, over one of central differences
-/// on cells: powers of two, for methods that keep an error, damping, round sections that yield, and
-/// elements, of which several sections each yield (validation/truth/within).
+/// How long an evaluation of the right-hand side takes, per unknown, over one of central
+/// differences on cells: powers of two, for methods that keep an error, damping, loads that vary
+/// (whose work is integrated step by step), round sections that yield, and elements, of which
+/// several sections each yield (validation/truth/within).
 double evaluation_cost(const Case& input);
 
 /// The cost of a run: evaluations of the right-hand side times their cost and the unknowns of the

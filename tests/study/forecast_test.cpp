@@ -1,6 +1,6 @@
 // What is forecast of the runs that run_as_asked() makes, beside what it then does.
 
-#include "subimpact/study/refinement/forecast.h"
+#include "subimpact/study/forecast.h"
 
 #include <random>
 

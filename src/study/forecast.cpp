@@ -1,4 +1,4 @@
-#include "subimpact/study/refinement/forecast.h"
+#include "subimpact/study/forecast.h"
 
 #include <time.h>
 
@@ -12,6 +12,7 @@
 #include "study/parallel.h"
 #include "study/refinement/refinement.h"
 #include "subimpact/study/other_mesh.h"
+#include "subimpact/study/sensitivity/predictability.h"
 
 namespace subimpact {
 namespace {
@@ -107,6 +108,7 @@ class Forecaster {
     return std::move(cost_);
   }
   double memory() const { return memory_beside + memory_; }
+  void add_scatter(double n_runs, ForecastCost& cost) const;
 
  private:
   void make(const Case& input, const std::vector<CaseBeside>& cases, Result& run,
@@ -313,6 +315,19 @@ void Forecaster::make(const Case& input, const std::vector<CaseBeside>& cases, R
   in_runs_ += processor_seconds() - begun;
 }
 
+// Of runs on the last mesh of a search, or on a coarser one where these would be above the limit.
+void Forecaster::add_scatter(double n_runs, ForecastCost& cost) const {
+  const Sample& finest = *this->finest(*last_);
+  ForecastRun runs = cost.runs.back();
+  runs.work = std::min(n_runs * runs.work, most_work_of_scatter);
+  runs.seconds = runs.work * finest.seconds / finest.work();
+  runs.is_made = false;
+  runs.n_runs = static_cast<int>(n_runs);
+  cost.processor_seconds += runs.seconds;
+  cost.wall_seconds += runs.seconds / jobs_;
+  cost.runs.push_back(std::move(runs));
+}
+
 }  // namespace
 
 RunForecast forecast(const Case& input, const GivenKeys& given, Jobs jobs) {
@@ -337,6 +352,12 @@ RunForecast forecast(const Case& input, const GivenKeys& given, Jobs jobs) {
   forecast.least = open ? forecaster.cost_of(Assumption::next_suffices, search) : forecast.expected;
   forecast.most =
       open ? forecaster.cost_of(Assumption::none_is_certain, search) : forecast.expected;
+  if (const auto n_keys = static_cast<double>(scattering_keys(once).size()); n_keys > 0.0) {
+    for (ForecastCost* cost : {&forecast.expected, &forecast.least, &forecast.most}) {
+      forecaster.add_scatter(runs_for_derivatives(n_keys), *cost);
+      forecaster.add_scatter(static_cast<double>(most_samples), *cost);
+    }
+  }
   forecast.memory = forecaster.memory();
   return forecast;
 }

@@ -18,6 +18,7 @@ struct ForecastRun {
   double work = 0.0;       ///< counted_work()
   double seconds = 0.0;    ///< of a processor
   bool is_made = false;    ///< for the forecast: its time is measured
+  int n_runs = 1;          ///< more: runs with numbers that scatter, on a coarser mesh where dear
 };
 
 /// What all runs take, with reading, judging and files.
