@@ -4,12 +4,14 @@ import functools
 import http.server
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 
 import checks
 import reference
+from menus import OTHER_WORDS
 from stage import Stage
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -59,11 +61,22 @@ def stage(project, program, python, folder):
     return staged.faults
 
 
-def without_sources(site):
-    """Texts of files, which pages link to, are not searched."""
+def improve_search(site, pages):
+    """Adds to what is searched: meanings of keys beside their names, the last parts of dotted names, and words that
+    people use for what a page calls otherwise; these are tags, which weigh most and are not shown. Takes away the
+    texts of files."""
     path = site / "search/search_index.json"
     index = json.loads(path.read_text())
     index["docs"] = [entry for entry in index["docs"] if not entry["location"].startswith("source/")]
+    keys = (pages / "reference/keys.md").read_text()
+    meanings = dict(re.findall(r"(?m)^### `(.+)`\n\n(.*?)(?:;.*)?$", keys))
+    words = {checks.address_of(path): others for path, others in OTHER_WORDS.items()}
+    for entry in index["docs"]:
+        names = re.findall(r"\w+\.(\w+_\w+)", entry["title"])
+        if tags := words.get(entry["location"], []) + names:
+            entry["tags"] = tags
+        if entry["location"].startswith("reference/keys/#") and entry["title"] in meanings:
+            entry["title"] += ": " + meanings[entry["title"]]
     path.write_text(json.dumps(index, separators=(",", ":")))
 
 
@@ -81,7 +94,7 @@ def build(project, program, python, site):
     if done.returncode != 0:
         raise SystemExit(f"mkdocs: {done.stderr.strip()}")
     faults += [line for line in done.stderr.splitlines() if "WARNING" in line]
-    without_sources(site)
+    improve_search(site, staged / "pages")
     return faults + checks.faults(site)
 
 

@@ -61,6 +61,11 @@ def dead_links(pages, files):
                 yield f"{path}: no such anchor {link}"
 
 
+def address_of(path):
+    """The address on the site of a page of the project."""
+    return path.removesuffix("README.md") if path.endswith("README.md") else path.removesuffix(".md") + "/"
+
+
 def source_of(path):
     """The path of the page in the project; folders are README.md."""
     folder = posixpath.dirname(path)

@@ -9,5 +9,5 @@ window.MathJax = {
     ignoreClass: '.*',
     processClass: 'arithmatex',
   },
-  SVG: {scale: 95, linebreaks: {automatic: true, width: 'container'}},
+  SVG: {scale: 86},
 };

@@ -64,3 +64,19 @@ CUT_AT = {
 LISTINGS = ["reference/", "source/", "docs/case-file.md", "docs/files.md", "CHANGELOG.md", "validation/README.md"]
 
 MOST_WORDS = 2500  # of any other page
+
+# Single words that people type for what a page calls otherwise; the search knows them, nobody sees them.
+OTHER_WORDS = {
+    "docs/case-file.md": ["units", "toml", "si", "input"],
+    "docs/contact-laws.md": ["steel", "material"],
+    "docs/gallery.md": ["examples", "steel", "drop", "pictures"],
+    "docs/glossary.md": ["terms", "definitions"],
+    "docs/library.md": ["debian", "pip", "download"],
+    "docs/methods.md": ["convergence", "solver", "integrator"],
+    "docs/model.md": ["assumptions", "validity"],
+    "docs/populations.md": ["numpy", "parallel"],
+    "docs/results.md": ["output", "rebound"],
+    "docs/theory/errors.md": ["accuracy", "uncertainty"],
+    "docs/theory/meshes.md": ["convergence", "discretisation"],
+    "docs/tutorial.md": ["units", "introduction", "begin"],
+}

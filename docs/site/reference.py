@@ -27,7 +27,7 @@ def keys(program):
     for line in printed(program, "keys").splitlines():
         if found := re.fullmatch(r"\[(.+)\]", line):
             table = found[1]
-            page.append(f"## [{table}]\n".replace("[", "\\[").replace("]", "\\]"))
+            page.append(f"## `[{table}]`\n")
         elif found := re.match(r"(\w+) +(.*)", line):
             name = f"{table}.{found[1]}" if table else found[1]
             if table.startswith("scatter."):  # one sentence over and over

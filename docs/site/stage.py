@@ -12,6 +12,7 @@ FENCE = re.compile(r"(?ms)^```.*?^```[ ]*$")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 MARK = re.compile(r"<!--.*?-->\n?", re.S)
 COPIED = {".svg", ".png", ".gif", ".ipynb", ".csv"}  # as files; other files that are linked become pages
+FRONT = "---\nhide: [navigation]\n---\n\n"  # of the first page, which is alone on its menu
 LANGUAGES = {".h": "cpp", ".cpp": "cpp", ".py": "python", ".toml": "toml", ".txt": "cmake"}
 
 
@@ -102,7 +103,7 @@ class Stage:
                 self.texts[path] = text
                 destination = self.folder / path
                 destination.parent.mkdir(parents=True, exist_ok=True)
-                destination.write_text(text)
+                destination.write_text(("" if path != "README.md" else FRONT) + text)
 
     def target(self, link, page):
         """What a link of a page becomes."""
@@ -138,9 +139,8 @@ class Stage:
             return inside
         source = f"source/{inside}.md"
         if source not in self.texts:
-            language = LANGUAGES.get(path.suffix, "")
-            text = path.read_text()
-            self.texts[source] = text if path.suffix == ".md" else f"# {inside}\n\n```{language}\n{text.rstrip()}\n```\n"
+            block = f"```{LANGUAGES.get(path.suffix, '')}\n{path.read_text().rstrip()}\n```"
+            self.texts[source] = f"# {inside}\n\n{block}\n"
         return source
 
     def folder_page(self, path, inside):
