@@ -16,8 +16,9 @@ from stage import Stage
 
 HERE = pathlib.Path(__file__).resolve().parent
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")  # Debian's libjs-mathjax; without it formulas stay as typed
-MATHJAX_PARTS = ["MathJax.js", "config/TeX-AMS_SVG.js", "jax/element", "jax/input/TeX", "jax/output/SVG",
-                 "extensions/TeX", "extensions/tex2jax.js", "extensions/MathMenu.js", "extensions/MathZoom.js"]
+MATHJAX_PARTS = ["MathJax.js", "config/TeX-AMS_SVG.js", "jax/element", "jax/input/TeX", "jax/output/SVG/jax.js",
+                 "jax/output/SVG/autoload", "jax/output/SVG/fonts/TeX", "extensions/TeX", "extensions/tex2jax.js",
+                 "extensions/MathMenu.js", "extensions/MathZoom.js"]
 PACKAGES = "mkdocs mkdocs-material"
 
 
