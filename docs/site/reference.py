@@ -50,7 +50,7 @@ def columns(program):
     for line in printed(program, "columns").splitlines():
         if found := re.match(r"([\w./-]+): (.*)", line):
             page += [f"\n## {found[1]}\n\n{escaped(found[2])}\n", "| column | meaning |", "|---|---|"]
-        elif found := re.match(r" +(\S+) {2,}(.*)", line):
+        elif found := re.match(r"  (\S+) +(.*)", line):
             page.append(f"| `{found[1]}` | {escaped(found[2])} |")
         elif line.strip():
             page.append(f"\n{escaped(line.strip())}\n")

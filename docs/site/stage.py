@@ -30,6 +30,23 @@ def outside_fences(text, change):
     return "".join(parts) + change(text[at:])
 
 
+def with_lists(text):
+    """The text as MkDocs wants lists: an empty line before the first item, paragraphs of items set in by four."""
+    lines = []
+    for line in text.split("\n"):
+        before = lines[-1] if lines else ""
+        if re.match(r" {2,3}\S", line) and not before and any(map(is_item, lines[-12:])):
+            line = "    " + line.lstrip()
+        elif is_item(line) and before and not is_item(before) and not re.match(r" {2,3}\S", before):
+            lines.append("")
+        lines.append(line)
+    return "\n".join(lines)
+
+
+def is_item(line):
+    return re.match(r"([-*]|\d+\.) \S", line) is not None
+
+
 def headings(text, level=2):
     """(title, position) of the headings of a level, outside blocks of code."""
     blanked = FENCE.sub(lambda fence: " " * len(fence[0]), text)
@@ -99,7 +116,7 @@ class Stage:
                 done.add(path)
                 text = MARK.sub("", self.texts[path]) if not path.startswith("source/") else self.texts[path]
                 text = outside_fences(text, lambda piece, path=path: LINK.sub(
-                    lambda found: f"]({self.target(found[1], path)})", piece))
+                    lambda found: f"]({self.target(found[1], path)})", with_lists(piece)))
                 self.texts[path] = text
                 destination = self.folder / path
                 destination.parent.mkdir(parents=True, exist_ok=True)

@@ -93,7 +93,7 @@ class Site(unittest.TestCase):
         cls.addClassCleanup(cls.driver.quit)
 
     def test_has_no_dead_link_and_no_page_that_is_too_long(self):
-        self.assertEqual((self.built.stderr, self.built.returncode), ("", 0))
+        self.assertEqual(self.built.returncode, 0, self.built.stderr)
 
     def shown(self, search, says):
         """The pages of the hits once the search says what is expected of it."""
