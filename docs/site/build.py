@@ -82,20 +82,24 @@ def improve_search(site, pages):
 
 
 def build(project, program, python, site):
-    """Builds the site in a folder, which is emptied first; the faults that were found."""
+    """Builds the site in a folder, in place of an older one; the faults that were found."""
     site = site.resolve()
     staged = site.with_name(site.name + "-pages")
-    for folder in (site, staged):
-        if folder.exists() and not (folder / "mkdocs.json").exists() and not (folder / "sitemap.xml").exists():
+    for folder, mark in ((site, "sitemap.xml"), (staged, "mkdocs.json")):
+        if folder.exists() and not (folder / mark).exists() and any(folder.iterdir()):
             raise SystemExit(f"{folder} exists and is no site; remove it, or name another folder")
-        shutil.rmtree(folder, ignore_errors=True)
+    shutil.rmtree(staged, ignore_errors=True)
+    staged.mkdir(parents=True)
+    (staged / "mkdocs.json").touch()
     faults = stage(project, program, python, staged)
-    done = subprocess.run(["mkdocs", "build", "--quiet", "-f", staged / "mkdocs.json", "-d", site],
+    done = subprocess.run(["mkdocs", "build", "--quiet", "-f", staged / "mkdocs.json", "-d", staged / "site"],
                           capture_output=True, text=True)
     if done.returncode != 0:
         raise SystemExit(f"mkdocs: {done.stderr.strip()}")
     faults += [line for line in done.stderr.splitlines() if "WARNING" in line]
-    improve_search(site, staged / "pages")
+    improve_search(staged / "site", staged / "pages")
+    shutil.rmtree(site, ignore_errors=True)
+    (staged / "site").rename(site)
     return faults + checks.faults(site)
 
 

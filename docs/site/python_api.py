@@ -1,7 +1,10 @@
 """Prints the page of the Python package, from its signatures and docstrings."""
 
 import dataclasses
+import importlib
 import inspect
+import pkgutil
+import re
 
 import subimpact
 
@@ -15,7 +18,8 @@ def signature(thing):
 
 def docs(thing):
     text = inspect.getdoc(thing) or ""
-    return text.replace("<", "&lt;").replace(">", "&gt;")
+    text = text.replace("<", "&lt;").replace(">", "&gt;")
+    return re.sub(r"\bdocs/([\w-]+)\.md", r"[docs/\1.md](../docs/\1.md)", text)
 
 
 def own_docs(owner):
@@ -48,16 +52,33 @@ def entry(name, thing):
         return "\n".join([*parts, own_docs(thing) + "\n", *members(thing)])
     if callable(thing):
         return f"## {name}\n\n```python\n{name}{signature(thing)}\n```\n\n{docs(thing)}\n"
-    if inspect.ismodule(thing):
-        return f"## {name}\n\n{docs(thing)}\n"
-    return ""
+    return f"## {name}\n\nA {type(thing).__name__}.\n"
+
+
+def subpackages():
+    """What packages within the package offer beside what it offers itself."""
+    for module in pkgutil.iter_modules(subimpact.__path__):
+        if not module.ispkg or module.name.startswith("_"):
+            continue
+        try:
+            package = importlib.import_module(f"subimpact.{module.name}")
+        except ImportError as error:
+            yield f"## subimpact.{module.name}\n\nNot listed here: {error}.\n"
+            continue
+        yield f"## subimpact.{module.name}\n\n{docs(package)}\n"
+        for name in package.__all__:
+            if name not in subimpact.__all__:
+                yield entry(f"{module.name}.{name}", getattr(package, name))
 
 
 def main():
     print("# Python package\n")
-    print(docs(subimpact).replace("docs/populations.md", "[Populations](../docs/populations.md)"), "\n")
+    print(docs(subimpact), "\n")
     for name in subimpact.__all__:
-        print(entry(name, getattr(subimpact, name)))
+        if not name.startswith("_"):
+            print(entry(name, getattr(subimpact, name)))
+    for text in subpackages():
+        print(text)
 
 
 main()
