@@ -29,11 +29,13 @@ def skip_unless_there():
         sys.exit(skipped)
 
 
-def start(width=1280, height=1000):
+def start(width=1280, height=1000, reachable=""):
+    """A browser that reaches no other machine; of this one, only an address that is `reachable`."""
+    rules = "MAP * ~NOTFOUND" + (f", EXCLUDE {reachable}" if reachable else "")
     options = webdriver.ChromeOptions()
     options.binary_location = shutil.which("chromium")
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                     f"--window-size={width},{height}", "--host-resolver-rules=MAP * ~NOTFOUND",
+                     f"--window-size={width},{height}", f"--host-resolver-rules={rules}",
                      "--proxy-server=127.0.0.1:9", "--force-device-scale-factor=1",
                      "--allow-file-access-from-files"):
         options.add_argument(argument)
