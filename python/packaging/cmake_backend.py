@@ -61,12 +61,12 @@ def _build(directory, settings):
     if not (directory / "CMakeCache.txt").exists():
         options += ["-GNinja", "-DCMAKE_BUILD_TYPE=Release", "-DSUBIMPACT_PYTHON=ON",
                     f"-DSUBIMPACT_NATIVE={settings.get('native', 'OFF')}",
-                    *(f"-DSUBIMPACT_{part}=OFF" for part in ("PROGRAMS", "EXAMPLES", "TESTS", "BENCHMARKS", "INSTALL"))]
+                    *(f"-DSUBIMPACT_{part}=OFF" for part in ("EXAMPLES", "TESTS", "BENCHMARKS", "INSTALL"))]
         if shutil.which("ccache"):
             options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
     _run("cmake", "-S", str(ROOT), "-B", str(directory), *options)
-    _run("cmake", "--build", str(directory), "--target", "subimpact_python")
-    return directory / "python" / "subimpact"
+    _run("cmake", "--build", str(directory), "--target", "subimpact_python", "subimpact")
+    return directory / "python" / "subimpact", directory / "bin" / "subimpact"
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
@@ -76,10 +76,11 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     tag = f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
     stem = f"{project['name']}-{project['version']}"
     with tempfile.TemporaryDirectory() as temporary:
-        package = _build(pathlib.Path(settings.get("build-dir", temporary)).resolve(), settings)
+        package, program = _build(pathlib.Path(settings.get("build-dir", temporary)).resolve(), settings)
         contents = {f"subimpact/{path.relative_to(package).as_posix()}": path.read_bytes()
                     for path in sorted(package.rglob("*"))
                     if path.is_file() and (path.suffix in {".py", ".pyi", ".so"} or path.name == "py.typed")}
+        contents[f"{stem}.data/scripts/subimpact"] = program.read_bytes()
     scripts = "".join(f"{name} = {target}\n" for name, target in project["scripts"].items())
     contents |= {
         f"{stem}.dist-info/METADATA": _metadata(project).encode(),
@@ -95,7 +96,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with zipfile.ZipFile(pathlib.Path(wheel_directory) / wheel, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in contents.items():
             information = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
-            information.external_attr = (0o755 if name.endswith(".so") else 0o644) << 16
+            is_program = name.endswith((".so", "scripts/subimpact"))
+            information.external_attr = (0o100755 if is_program else 0o100644) << 16
             archive.writestr(information, content, zipfile.ZIP_DEFLATED)
     return wheel
 

@@ -23,3 +23,5 @@ help_text = subprocess.run(
     [prefix + "/bin/subimpact-sweep", "--help"], env=environment, capture_output=True, text=True, check=True
 )
 assert "--workers" in help_text.stdout
+version = subprocess.run([prefix + "/bin/subimpact", "--version"], env=environment, capture_output=True, text=True, check=True)
+assert subimpact.__version__ in version.stdout

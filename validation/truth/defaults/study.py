@@ -14,7 +14,7 @@ TABLES_LEFT_OPEN = ("solver", "study", "accuracy", "repeat", "output")
 FINER = (1.5, 2.25)  # meshes of the runs that say what is right
 INSTANTS = 3900  # of these runs
 SETTLED = 0.3  # the two differ by less than this share of the error that is tried, or nothing is said
-MOST_SECONDS = 8.0  # of such a run
+MOST_SECONDS = 5.0  # of such a run
 LONG = 24.0  # s of a processor: 12 s on two
 
 
