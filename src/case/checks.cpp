@@ -133,7 +133,8 @@ void check_contact(const Case& input) {
            key.meaning, allowed_values(key), way.remedy);
   }
   for (const CaseKey& key : case_keys()) {
-    const bool is_number = key.table() == "contact" && key.type == KeyType::number;
+    const bool is_number =
+        key.table() == "contact" && (key.type == KeyType::number || key.type == KeyType::numbers);
     const char* name = key.name.c_str();
     if (!is_number || key.name == "contact.damping" || key.name == "contact.restitution" ||
         uses_key(way, name) || !key.get(input))

@@ -221,6 +221,7 @@ enum class ContactKind {
   linear,      ///< F = K lambda, never yields
   sphere,      ///< Hertz up to the yield pressure, Thornton's plastic contact beyond
   line,        ///< a cylinder across the beam, elastic up to the yield pressure, plastic beyond
+  curve,       ///< measured: loading and, where given, unloading
 };
 
 /// What the nose's displacement is compared with in the laws of a half-space.
@@ -250,6 +251,10 @@ struct Contact {
   bool pressure_by_depth = false;
   /// By default the half-space (sphere, hertz); a line contact knows the mid-plane alone.
   std::optional<IndentationFrom> indentation = {};
+  /// Points of a measured force (N) over indentation (m), both rising: loading, and unloading from
+  /// its last point (curve).
+  std::optional<std::vector<double>> curve_indentation = {}, curve_force = {};
+  std::optional<std::vector<double>> unloading_indentation = {}, unloading_force = {};
 
   bool is_from_mid_plane() const {
     return kind == ContactKind::line || indentation == IndentationFrom::mid_plane;

@@ -61,7 +61,8 @@ constexpr IdleKey idle_keys[] = {
     {"contact.indentation", "contact.law",
      [](const Case& c) {
        const ContactKind kind = c.scene.contact.kind;
-       return kind == ContactKind::foundation || kind == ContactKind::linear;
+       return kind == ContactKind::foundation || kind == ContactKind::linear ||
+              kind == ContactKind::curve;
      }},
     {"contact.indentation", "contact.stiffness",
      [](const Case& c) { return c.scene.contact.stiffness.has_value(); }},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/contact/ball_contact.h"
+#include "model/contact/curve_contact.h"
 #include "model/contact/line_contact.h"
 #include "model/contact/power_contact.h"
 #include "model/contact/sphere_contact.h"
@@ -108,6 +109,20 @@ Law make_linear(const Scene& scene) {
   return std::make_shared<PowerContact>(need(scene.contact.stiffness), 1.0, never, "linear");
 }
 
+MeasuredCurve loading_of(const Contact& contact) {
+  using List = std::vector<double>;
+  return {contact.curve_indentation.value_or(List()), contact.curve_force.value_or(List())};
+}
+
+MeasuredCurve unloading_of(const Contact& contact) {
+  using List = std::vector<double>;
+  return {contact.unloading_indentation.value_or(List()), contact.unloading_force.value_or(List())};
+}
+
+Law make_curve(const Scene& scene) {
+  return std::make_shared<CurveContact>(loading_of(scene.contact), unloading_of(scene.contact));
+}
+
 constexpr const char* nose[] = {"striker.nose_radius"};
 constexpr const char* stiffness[] = {"contact.stiffness"};
 constexpr const char* both_bodies[] = {"striker.nose_radius", "contact.striker_modulus",
@@ -116,6 +131,12 @@ constexpr const char* beam_alone[] = {"striker.nose_radius", "contact.beam_poiss
 
 constexpr const char* yield_pressure[] = {"contact.yield_pressure"};
 
+constexpr const char* loading[] = {"contact.curve_indentation", "contact.curve_force"};
+constexpr const char* unloading[] = {"contact.unloading_indentation", "contact.unloading_force"};
+
+constexpr ContactConstants of_curve[] = {{loading, "give the points of the measured curve",
+                                          "\"curve\" follows the measured points alone",
+                                          unloading}};
 constexpr ContactConstants of_foundation[] = {
     {nose, "give it in m",
      "\"foundation\" derives its stiffness from beam and striker.nose_radius"}};
@@ -195,6 +216,15 @@ std::string why_no_line(const Scene& scene, GapRadii /*radii*/) {
   return hollow.empty() && scene.beam.is_round() ? ellipse : hollow;
 }
 
+std::string why_no_curve(const Scene& scene, GapRadii /*radii*/) {
+  try {
+    make_curve(scene);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
 constexpr BuiltInContactLaw laws[] = {
     {ContactKind::foundation, "foundation",
      "columns of the beam's height, elastic-perfectly plastic", true, of_foundation,
@@ -213,6 +243,10 @@ constexpr BuiltInContactLaw laws[] = {
      "a cylinder of striker.nose_radius across the beam, with the moduli and Poisson's ratios of "
      "both bodies, which yields at contact.yield_pressure",
      true, of_round_nose, make_line, why_no_line},
+    {ContactKind::curve, "curve",
+     "measured: contact.curve_indentation and contact.curve_force, and for unloading "
+     "contact.unloading_indentation and contact.unloading_force",
+     true, of_curve, make_curve, why_no_curve},
 };
 
 }  // namespace

@@ -62,6 +62,7 @@ Case with_law_of(const Case& input, Change change) {
 Variant law_of(const Case& input) {
   const Contact& contact = input.scene.contact;
   if (contact.stiffness) return {"contact law", "nothing: its stiffness is given", {}};
+  if (contact.kind == ContactKind::curve) return {"contact law", "nothing: it is measured", {}};
   if (!contact.is_from_mid_plane()) {
     Case next = input;
     choose_scene(next, {{"beam.theory"}, {}});

@@ -52,7 +52,8 @@ constexpr LawChoice ball[] = {
     {ContactKind::hertz, half, "a ball; the half-space knows nothing of bending walls"}};
 constexpr LawChoice others[] = {
     {ContactKind::foundation, {}, "no better law for a ball on this section"},
-    {ContactKind::linear, {}, "as given"}};
+    {ContactKind::linear, {}, "as given"},
+    {ContactKind::curve, {}, "as measured"}};
 
 // The case with the law, by depth where that goes; nothing if given keys say otherwise.
 std::optional<Case> with_law(const Case& input, const GivenKeys& given, const LawChoice& choice) {
