@@ -63,13 +63,11 @@ def response(result: Result, axes: Any) -> None:
     length_unit, d = unit("length", history["w_c_m"], history["w_m_m"])
     body = "stop" if result["striker.fixed"] else "striker"
     _shade(bottom, result, t)
-    for name, label, line in (("w_c_m", "struck point $w_c$", "-"), ("w_m_m", f"{body} $w_m$", "--"),
-                              ("f_c_m", "deflection $f_c$", "-")):
-        bottom.plot(t * history["time_s"], d * history[name], line, label=label)
+    for name, label, line, width in (("w_c_m", "struck point $w_c$", "-", 2.4), ("w_m_m", f"{body} $w_m$", "--", 1.2),
+                                     ("f_c_m", "deflection $f_c$", "-", 1.0)):
+        bottom.plot(t * history["time_s"], d * history[name], line, label=label, linewidth=width)
     bottom.set(xlabel=f"time, {time_unit}", ylabel=f"displacement, {length_unit}")
-    handles, labels = bottom.get_legend_handles_labels()
-    legend_above(bottom)
-    bottom.legend(handles[-3:], labels[-3:], loc="lower right", bbox_to_anchor=(1, 1), ncol=3)
+    legend_above(bottom, bottom.lines)
 
 
 @figure([[0], [1]], height=5.0, sharex=True)
@@ -194,7 +192,7 @@ def energies(result: Result, axes: Any) -> None:
             top.plot(t * history["time_s"], e * history[name], label=label)
     top.set(ylabel=f"energy, {energy_unit}", xlim=(0, t * result.time))
     top.set_ylim(bottom=0)
-    legend_above(top, 3)
+    legend_above(top, columns=3)
     length_unit, d = unit("length", history["f_c_m"], history["u_mf_m"])
     bottom.plot(t * history["time_s"], d * history["f_c_m"], label="struck point $f_c$")
     bottom.plot(t * history["time_s"], d * history["u_mf_m"], "--", label=f"{striker} $u_{{mf}}$")
@@ -244,6 +242,9 @@ def timeline(result: Result, axes: Any) -> None:
     for row, (values, errors, dark, pale, label) in enumerate(rows):
         shown = values[values > 0]
         limits = (0.5 * shown.min(), 3 * shown.max()) if len(shown) else (0.1, 10)
+        decades = np.floor(np.log10(limits))
+        if decades[0] == decades[1] or decades[0] + 1 == decades[1]:  # fewer than two labelled ticks
+            limits = (10.0 ** decades[0], 10.0 ** (decades[1] + 1))
         for column, (title, of_zone) in enumerate(zones):
             panel = axes[row, column]
             start, end = _span(result, of_zone)

@@ -127,9 +127,9 @@ def unit(quantity: str, *values: Any) -> tuple[str, float]:
     return name, factor
 
 
-def legend_above(axes: Any, columns: int = 8) -> None:
+def legend_above(axes: Any, handles: Any = None, columns: int = 8) -> None:
     """The legend above the right end of a panel."""
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, borderaxespad=0.1,
+    axes.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, borderaxespad=0.1,
                 handlelength=1.8, columnspacing=1.4)
 
 

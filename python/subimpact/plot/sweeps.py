@@ -67,7 +67,7 @@ def sweep_map(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
     total, number = (np.zeros((len(ys), len(xs))) for _ in range(2))
     np.add.at(total, (y[known], x[known]), values[known])
     np.add.at(number, (y[known], x[known]), 1)
-    cells = np.ma.masked_invalid(np.divide(total, number, out=np.full_like(total, np.nan), where=number > 0))
+    cells = np.divide(total, number, out=np.full_like(total, np.nan), where=number > 0)
     norm, colours = _colours(cells, column)
     axes.set_facecolor("#DDDDDD")
     mesh = axes.pcolormesh(cells, cmap=colours, norm=norm, edgecolor="white", linewidth=0.3)
@@ -79,7 +79,7 @@ def sweep_map(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
     if "all_certain" in runs:
         np.add.at(doubtful, (y, x), np.asarray(runs["all_certain"]) == 0)
     if doubtful.any():
-        axes.pcolor(np.ma.masked_equal(doubtful, 0), hatch="////", alpha=0.0)
+        axes.pcolor(np.where(doubtful > 0, 1.0, np.nan), hatch="////", alpha=0.0)
     for size, keys, axis, key in ((len(xs), xs, axes.xaxis, x_key), (len(ys), ys, axes.yaxis, y_key)):
         every = -(-size // 12)
         axis.set_ticks(np.arange(0, size, every) + 0.5, [f"{value:.3g}" for value in keys[::every]])
@@ -93,7 +93,7 @@ def sweep_map(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
 def _colours(cells: Any, column: str) -> tuple[Any, Any]:
     if not column.startswith("n_"):
         return None, "viridis"
-    most = int(np.ma.max(cells)) if cells.count() else 1
+    most = int(np.nanmax(cells, initial=1))
     own = list(_COUNTS[: most + 1])
     shades = matplotlib.colormaps["magma"](np.linspace(0.55, 0.0, max(0, most + 1 - len(own))))
     colours = matplotlib.colors.ListedColormap([*own, *shades])
@@ -102,7 +102,7 @@ def _colours(cells: Any, column: str) -> tuple[Any, Any]:
 
 def _write_numbers(axes: Any, mesh: Any, cells: Any) -> None:
     rows, columns = cells.shape
-    texts = {at: f"{cells[at]:.3g}" for at in np.ndindex(*cells.shape) if cells[at] is not np.ma.masked}
+    texts = {at: f"{cells[at]:.3g}" for at in np.ndindex(*cells.shape) if np.isfinite(cells[at])}
     longest = max(map(len, texts.values()), default=1)
     size = min(8.0, 360 / columns / (0.7 * longest), 280 / rows)
     for (i, j), text in texts.items():

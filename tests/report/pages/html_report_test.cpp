@@ -6,6 +6,7 @@
 #include "report/pages/page.h"
 #include "sample_result.h"
 #include "subimpact/io/output_directory.h"
+#include "subimpact/io/results.h"
 #include "temporary_directory.h"
 #include "testing.h"
 

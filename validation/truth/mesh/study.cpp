@@ -273,7 +273,6 @@ int main() {
   print_needed(yielding);
   points.insert(points.end(), yielding.begin(), yielding.end());
   write_points(directory, points);
-  draw(directory, points);
   auto on_cells = run_all(Kind::cells, limit_cells);
   auto on_elements = run_all(Kind::graded, limit_elements);
   write_limits(directory, on_cells.get(), on_elements.get());
