@@ -11,7 +11,7 @@ import tempfile
 from pathlib import Path
 from shutil import copy
 
-import matplotlib
+import matplotlib.ticker
 import numpy as np
 
 matplotlib.use("Agg")
@@ -23,23 +23,19 @@ KINDS = {"cells": "cells", "without_hinges": "elements without hinges", "element
          "graded": "graded elements"}
 
 
-def lines(axes, table, key, x, y, **options):
-    """A line for each of the values of a column, in their order; those of this program are thick."""
-    names = list(KINDS) if key == "mesh" else list(dict.fromkeys(table[key]))
+def lines(axes, table, key, x, y, names, of_panel=True):
+    """A line for each of these values of a column; those of this program are thick."""
     for k, name in enumerate(names):
-        rows = table[key] == name
-        if not rows.any():
-            continue
-        ours = "ours" in table and table["ours"][rows][0] > 0
+        rows = (table[key] == name) & of_panel
+        ours = "ours" in table and table["ours"][table[key] == name][0] > 0
         axes.plot(table[x][rows], table[y][rows], "osv^D"[k % 5] + ("-", "--", ":")[k // len(COLOURS) % 3],
-                  color=COLOURS[k % len(COLOURS)], linewidth=2 if ours else 0.9, label=KINDS.get(name, name), **options)
+                  color=COLOURS[k % len(COLOURS)], linewidth=2 if ours else 0.9, label=KINDS.get(name, name))
 
 
 @plot.figure([[0, 1]], height=3.6, sharex=True, sharey=True)
 def mesh(table, axes):
     for panel, section, title in zip(axes, ("elastic", "exact"), ("elastic sections", "sections that yield (exact)")):
-        rows = table["section"] == section
-        lines(panel, {name: column[rows] for name, column in table.items()}, "mesh", "unknowns", "max_error_us")
+        lines(panel, table, "mesh", "unknowns", "max_error_us", KINDS, table["section"] == section)
         for bound in (1, 0.1):
             panel.axhline(bound, color=GREY, linestyle="--", linewidth=0.8)
         panel.set(xscale="log", yscale="log", title=title, xlabel="unknowns of the half model")
@@ -51,7 +47,7 @@ def mesh(table, axes):
 
 @plot.figure([[0]], height=3.6)
 def grazes(table, axes):
-    lines(axes, table, "finder", "depth", "percent")
+    lines(axes, table, "finder", "depth", "percent", dict.fromkeys(table["finder"]))
     axes.set(xscale="log", xlabel="depth of the graze over the amplitude", ylabel="grazes found with both events, %")
     axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
 
@@ -64,9 +60,11 @@ def panels_of(column):
 def peers(table, axes):
     axes = np.ravel(axes)
     for panel, section in zip(axes, dict.fromkeys(table["section"])):
-        rows = table["section"] == section
-        lines(panel, {name: column[rows] for name, column in table.items()}, "contestant", "error_us", "seconds")
+        lines(panel, table, "contestant", "error_us", "seconds", dict.fromkeys(table["contestant"]),
+              table["section"] == section)
         panel.set(xscale="log", yscale="log", title=section, xlabel="largest error of an event time, µs")
+        panel.xaxis.set_major_locator(matplotlib.ticker.LogLocator(numticks=4))
+        panel.minorticks_off()
     axes[0].set_ylabel("processor time, s")
     axes[-1].legend(loc="upper left", bbox_to_anchor=(1, 1), fontsize=7)
 

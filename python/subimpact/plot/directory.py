@@ -134,12 +134,14 @@ def _compact(svg: str) -> str:
         numbers = re.sub(r"-?\d+\.\d+", lambda number: f"{float(number[0]):.2f}".rstrip("0").rstrip("."), attribute[0])
         return re.sub(r"\s*([MLQCz])\s*", r"\1", numbers)
 
-    svg = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>", "", svg, flags=re.DOTALL)
+    svg = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", svg, flags=re.DOTALL)
     svg = re.sub(r'<g id="[^"]*"', "<g", svg)
     svg = re.sub(r'\b(?:d|x|y|transform)="[^"]*"', short, svg)
     svg = re.sub(r"font: ([\d.]+px) '[^;\"]*", r"font-size: \1", svg)
     svg = svg.replace("<svg ", f'<svg style="{_ROOT_STYLE}" ', 1)
     svg = re.sub(r"\s*\n\s*", "\n", svg)
+    for _ in range(4):  # groups in each other that mean nothing
+        svg = re.sub(r"<g>\n((?:(?!</?g\b).*\n)*?)</g>\n", r"\1", svg)
     alike = r'<g((?: clip-path="[^"]*")?)>\n((?:<use [^>]*? style="([^"]*)"/>\n)(?:<use [^>]*? style="\3"/>\n)*)</g>'
     return re.sub(alike, lambda marks: f'<g{marks[1]} style="{marks[3]}">\n'
                   + marks[2].replace(f' style="{marks[3]}"', "") + "</g>", svg)

@@ -64,6 +64,7 @@ def work_precision(points: Table, axes: Any, cost: str = "wall_s") -> None:
                            label=None if mark else method)
         panel.set(xscale="log", yscale="log", title=label, xlabel="largest error of an event time, µs")
         panel.set_xlim(right=50 * edge)
+        panel.minorticks_off()
     panels[0].set_ylabel(words)
     panels[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
 
