@@ -204,9 +204,8 @@ void add_report(CLI::App& program, int& status) {
   command.footer(
       "report.html needs no other file and no network. In a browser it shows the beam moving, "
       "zoomable charts, force against indentation, a timeline with error bars and the table of "
-      "sub-impacts, linked; printed, or without scripts, it is a still report, with the figures "
-      "that "
-      "`subimpact plot DIR` has drawn before.\n"
+      "sub-impacts, linked; printed, or without scripts, it is a still report. It has the figures "
+      "that `subimpact plot DIR` has drawn before.\n"
       "comparison.html shows the curves of several runs in common charts, the keys in which their "
       "cases differ, and their sub-impacts matched with those of the first.\n"
       "sweep.html shows a map of the runs of a sweep; a click opens the numbers of a run.\n"

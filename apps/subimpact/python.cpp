@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <system_error>
 
 #include "commands.h"
@@ -17,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* executable_variable = "SUBIMPACT_PYTHON_EXECUTABLE";
 constexpr const char* remedy =
     "this command needs Python with NumPy, pandas, Matplotlib and the package subimpact (Debian: "
     "apt-get install python3-pandas python3-matplotlib); SUBIMPACT_PYTHON_EXECUTABLE names another "
@@ -36,7 +34,7 @@ except ModuleNotFoundError as error:
 )";
 
 std::string interpreter() {
-  const char* named = std::getenv(executable_variable);
+  const char* named = std::getenv("SUBIMPACT_PYTHON_EXECUTABLE");
   return named != nullptr && *named != '\0' ? named : SUBIMPACT_PYTHON_EXECUTABLE;
 }
 

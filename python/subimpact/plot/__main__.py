@@ -41,6 +41,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ValueError as error:
         _say(f"subimpact: --only {error}")
         return 2
+    except KeyboardInterrupt:
+        return 130
     for name, caption in drawn.captions.items():
         print(", ".join(f"{name}.{ending}" for ending in options.format) + f"\n    {caption}")
     if drawn.captions:

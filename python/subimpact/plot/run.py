@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..result import Result
-from .style import COLOURS, CONTACT, DOUBT, GREY, Absent, bands, figure, legend_above, unit
+from .style import COLOURS, CONTACT, DOUBT, Absent, bands, figure, legend_above, unit
 
 _MOST_INSETS = 3
 _MOST_ZONES = 4

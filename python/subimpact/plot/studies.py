@@ -8,7 +8,7 @@ from typing import Any
 import matplotlib
 import numpy as np
 
-from .style import COLOURS, GREY, WIDTH, figure, legend_above
+from .style import COLOURS, GREY, figure, legend_above
 
 Table = Mapping[str, Any]
 
