@@ -109,8 +109,8 @@ void print_events(const Study& study) {
   }
 }
 
-// The share of the runs that are in contact, at equal times, the contacts of the strike as given, and
-// the horizon with the number of contacts up to it; times in ms.
+// The share of the runs that are in contact, at equal times, the contacts of the strike as given,
+// and the horizon with the number of contacts up to it; times in ms.
 void write_rows(std::ofstream& csv, const Study& study) {
   constexpr int n = 4000;
   const Predictability& p = *study.result.predictability;
