@@ -3,10 +3,10 @@
 #   SUBIMPACT_PYTHON   AUTO: if an interpreter with NumPy and pybind11 are there; ON: they must be; OFF
 #   Python_EXECUTABLE  the interpreter; by default the first one with NumPy of python3 and /usr/bin/python3
 #
-# Sets SUBIMPACT_PYTHON_FOUND. The module is a shared object, so the floors are compiled as
-# position-independent code, also where an interpreter is still missing: installing it later then
-# compiles nothing again. Without semantic interposition, which the module rules out by its own list
-# of symbols, this costs no inlining.
+# Sets SUBIMPACT_PYTHON_FOUND and SUBIMPACT_PYTHON_DIR, where the package is installed. The module is a
+# shared object, so the floors are compiled as position-independent code, also where an interpreter is
+# still missing: installing it later then compiles nothing again. Without semantic interposition, which
+# the module rules out by its own list of symbols, this costs no inlining.
 set(SUBIMPACT_PYTHON AUTO CACHE STRING "Build the Python package: AUTO, ON or OFF")
 set_property(CACHE SUBIMPACT_PYTHON PROPERTY STRINGS AUTO ON OFF)
 set(SUBIMPACT_PYTHON_FOUND FALSE)
@@ -63,4 +63,7 @@ if(NOT pybind11_FOUND)
   return()
 endif()
 set(SUBIMPACT_PYTHON_FOUND TRUE)
+set(SUBIMPACT_PYTHON_DIR
+    lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/site-packages CACHE STRING
+    "Where the Python package is installed, below the prefix")
 message(STATUS "Python package: for ${Python_EXECUTABLE} (${Python_VERSION})")

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "byte_source.h"
-#include "report/figures/figure_script.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/report/pages.h"
 #include "targets.h"
@@ -102,11 +101,7 @@ void result_directory(Bytes bytes) {
   }
   try {
     const FinishedRun run = read_results(directory.path);
-    for (const FigureScript& figure : figure_scripts(run.input, run.result)) {
-      figure.text();
-      figure.size();
-    }
-    html_report(run, {}, directory.path);
+    html_report(run);
   } catch (const ResultsError&) {
   }
 }

@@ -19,8 +19,7 @@ void result_files(Bytes bytes);
 /// A case whose values come from tables of extreme ones: `explain`, then a run of a few steps.
 void structured_case(Bytes bytes);
 
-/// The directory of a small run with changes to its files: what `plot` and `report` read and write,
-/// without gnuplot.
+/// The directory of a small run with changes to its files: what `report` reads and writes.
 void result_directory(Bytes bytes);
 
 }  // namespace subimpact::fuzz

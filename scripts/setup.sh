@@ -10,7 +10,6 @@ project_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 readonly -A package_of_command=(
   [cmake]=cmake
   [ninja]=ninja-build
-  [gnuplot]=gnuplot-nox
 )
 readonly packages=(
   build-essential
@@ -80,7 +79,7 @@ install_missing_packages() {
     has_command "$name" || missing+=("${package_of_command[$name]}")
   done
   if ! has_command apt-get || ! has_command dpkg-query; then
-    say "This system has no apt, so nothing is installed. Needed are CMake 3.25, Ninja, gnuplot, a"
+    say "This system has no apt, so nothing is installed. Needed are CMake 3.25, Ninja, a"
     say "C++20 compiler and the development files of the libraries; Debian calls them"
     say "  ${package_of_command[*]} ${packages[*]}"
     say "Going on with what CMake finds."
@@ -132,6 +131,15 @@ build() {
     cmake --build --preset "$preset" ${1:+--target "$@"}
   )
 }
+
+# draw_figures ARGUMENT...: validation/figures.py with the Python package of the build.
+draw_figures() {
+  build release subimpact_python >&2
+  PYTHONPATH=$project_root/build/release/python "$(cached Python_EXECUTABLE)" "$project_root/validation/figures.py" "$@"
+}
+
+# A variable of CMake's in the build.
+cached() { sed -n "s/^$1:[A-Z]*=//p" "$project_root/build/release/CMakeCache.txt"; }
 
 # build_quietly PRESET TARGET: the same with a line per step; what it printed is shown if it fails.
 build_quietly() {

@@ -157,9 +157,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const Error& error) {
     const bool names_file = error.kind == ErrorKind::case_file || error.kind == ErrorKind::results;
     app::print_error("{}{}\n", names_file ? "" : "subimpact: ", error.what());
-    const bool has_failed =
-        error.kind == ErrorKind::figure || error.kind == ErrorKind::invalid_case;
-    return has_failed ? app::failed : app::refused;
+    return error.kind == ErrorKind::invalid_case ? app::failed : app::refused;
   } catch (const std::bad_alloc&) {
     app::print_error(
         "subimpact: the memory does not suffice; `subimpact explain` shows what a case takes: use "

@@ -1,12 +1,11 @@
 #include <cmath>
-#include <system_error>
 
 #include "case/keys/units.h"
 #include "commands.h"
 #include "io/directory/listed_files.h"
+#include "python.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
-#include "subimpact/report/figures.h"
 #include "subimpact/report/pages.h"
 #include "subimpact/report/text.h"
 #include "subimpact/study/overlay.h"
@@ -14,64 +13,32 @@
 namespace subimpact::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct FinishedRunOptions {
-  std::vector<std::string> runs;  // `plot`: one
+  std::vector<std::string> runs;
   std::string directory;
-  std::string scripts;
   std::string dygraphs;
   std::string measured, shift, low_pass;
 
   const std::string& directory_or_first_run() const {
     return directory.empty() ? runs.front() : directory;
   }
-  std::filesystem::path figures() const {
-    return std::filesystem::path(directory_or_first_run()) / "figures";
-  }
 };
 
-// After the figures of a run: what they leave out, and how a run ended that did not complete.
-void print_notes(const OutputDirectory& directory, const FinishedRun& run) {
-  std::fflush(stdout);
-  print_warnings(directory.notes());
-  for (const std::string& reason : figures_left_out(run.input, run.result)) {
-    print_error("subimpact: note: not drawn: {}\n", reason);
-  }
-  const std::string caveat = outcome_caveat(run.result);
-  if (!caveat.empty()) print_warnings({caveat});
-}
+struct PlotOptions {
+  std::string directory, out, formats, only;
+};
 
-// Results and scripts to be changed are not to lie among each other.
-void check_scripts(const std::string& scripts, const std::vector<std::filesystem::path>& taken) {
-  for (const std::filesystem::path& directory : taken) {
-    std::error_code none;  // of those names
-    if (!std::filesystem::equivalent(scripts, directory, none)) continue;
-    throw CLI::ValidationError(
-        "--scripts", fmt::format("{} is the directory of the run or of its figures; name another, "
-                                 "for scripts alone; it is made if missing",
-                                 scripts));
+int plot(PlotOptions& options) {
+  std::vector<std::string> arguments;
+  for (const auto& [name, value] :
+       {std::pair("--out=", options.out), std::pair("--format=", options.formats),
+        std::pair("--only=", options.only)}) {
+    if (!value.empty()) arguments.push_back(name + value);
   }
-}
-
-int plot(FinishedRunOptions& options) {
-  const FinishedRun run = read_results(options.runs.front());
-  const bool goes_beside = options.directory.empty();
-  OutputDirectory directory(goes_beside ? options.figures().string() : options.directory, "figures",
-                            run.identity);
-  if (!options.scripts.empty()) {
-    check_scripts(options.scripts, {options.runs.front(), directory.path()});
-    for (const std::string& file : write_figure_scripts(options.scripts)) {
-      print("{}\n", (std::filesystem::path(options.scripts) / file).string());
-    }
-  }
-  DrawnFigures figures = draw_figures(directory.staging(), run.input, run.result, options.scripts);
-  commit_figures(directory, figures);
-  for (const DrawnFigure& figure : figures.drawn) {
-    print("{0}.svg, {0}.png, {0}.pdf\n    {1}\n", figure.name, figure.caption);
-  }
-  if (!figures.drawn.empty()) print("\nfigures in {}\n", directory.path().string());
-  print_notes(directory, run);
-  throw_if_failed(figures);
-  return done;
+  arguments.insert(arguments.end(), {"--", options.directory});
+  return run_python("subimpact.plot", arguments);
 }
 
 constexpr const char* find_cutoff = "find";
@@ -92,30 +59,30 @@ void print_overlay(const Overlay& overlay) {
   if (const std::string doubt = overlay_doubt(overlay); !doubt.empty()) print_warnings({doubt});
 }
 
-int report(const FinishedRunOptions& options) {
-  const FinishedRun run = read_results(options.runs.front());
-  const std::optional<Overlay> overlay = overlay_with(run, options);
-  OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
-  OutputDirectory figures(options.figures(), "figures", run.identity);
-  WrittenReport written = write_html_report(directory.staging(), figures.staging(), run,
-                                            options.dygraphs, overlay ? &*overlay : nullptr);
-  commit_figures(figures, written.figures);
-  const bool is_there = commit_figures(directory, written.figures) && !written.page.empty();
-  if (is_there) print("{}\n", (directory.path() / written.page.filename()).string());
-  if (overlay) print_overlay(*overlay);
-  print_notes(directory, run);
-  if (!written.charts_missing.empty()) {
-    print_error("subimpact: note: no zoomable charts: {}\n", written.charts_missing);
-  }
-  throw_if_failed(written.figures);
-  return done;
-}
-
 int write_page(OutputDirectory& directory, const char* file, const std::string& page) {
   write_file(directory.staging() / file, page);
   directory.commit();
   print("{}\n", (directory.path() / file).string());
   print_warnings(directory.notes());
+  return done;
+}
+
+int report(const FinishedRunOptions& options) {
+  const FinishedRun run = read_results(options.runs.front());
+  const std::optional<Overlay> overlay = overlay_with(run, options);
+  OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
+  const DrawnFigures figures =
+      read_figures(fs::path(options.runs.front()) / "figures", run.identity);
+  write_page(directory, "report.html",
+             html_report(run, figures, options.dygraphs, overlay ? &*overlay : nullptr));
+  if (overlay) print_overlay(*overlay);
+  std::fflush(stdout);
+  if (const std::string caveat = outcome_caveat(run.result); !caveat.empty()) {
+    print_warnings({caveat});
+  }
+  if (const std::string missing = why_no_charts(options.dygraphs); !missing.empty()) {
+    print_error("subimpact: note: no zoomable charts: {}\n", missing);
+  }
   return done;
 }
 
@@ -156,28 +123,36 @@ int report_any(FinishedRunOptions& options) {
 }
 
 void add_plot(CLI::App& program, int& status) {
-  auto [command, options] = add_command(
-      program, status, "plot", "Draw the figures of a finished run (SVG, PNG and PDF)", plot);
-  options.runs.resize(1);
-  command.add_option("DIR", options.runs.front(), "Output directory of `subimpact run`")
+  auto [command, options] =
+      add_command(program, status, "plot",
+                  "Draw the figures of a run, a sweep or a study (SVG, PNG and PDF)", plot);
+  command
+      .add_option("DIR", options.directory,
+                  "Output directory of `subimpact run`, `stability` or `work-precision`, or of "
+                  "subimpact-sweep")
       ->required();
-  add_directory_option(command, options.directory,
+  add_directory_option(command, options.out,
                        "Directory for the figures; made if missing. Default: DIR/figures");
-  command.add_option("--scripts", options.scripts,
-                     "Directory of gnuplot scripts to draw with; those it lacks are put there "
-                     "first, to be changed. For scripts alone: not that of a run or of figures");
+  command
+      .add_option("--format", options.formats,
+                  "File formats, separated by commas. Default: svg,png,pdf")
+      ->check(not_empty);
+  command
+      .add_option("--only", options.only,
+                  "Names of figures, separated by commas. Default: all there are")
+      ->check(not_empty);
   command.footer(
-      "Draws response, first-sub-impact, indentation, energies, timeline, shapes and envelope "
-      "(both unless output.shapes = 0) and, if the run kept sections (output.sections), bending; "
-      "needs gnuplot. The gnuplot scripts are kept next to the figures, to be edited and run "
-      "again.\n"
+      "Of a run: response, first-sub-impact, indentation, energies, timeline, shapes and envelope "
+      "(both unless output.shapes = 0), bending, if the run kept sections (output.sections), and "
+      "strikes, if there were several. Of a sweep: sweep_map, histograms. figures.json has their "
+      "captions; `subimpact report` puts the figures of a run on its page. Needs Python with "
+      "Matplotlib, where the package subimpact.plot draws them.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --set output.sections=0.5,0.4\n"
       "  subimpact plot out/first\n"
-      "  subimpact plot out/first --out figures\n"
-      "  subimpact plot out/first --scripts mine    (change mine/style.gp, and repeat)\n"
-      "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot missing; "
-      "3 a figure could not be drawn or written, the others are.");
+      "  subimpact plot out/first --out figures --format pdf --only response,timeline\n"
+      "Exit status: 0 done; 2 bad command line, files that no run has written, or Python without "
+      "what is needed; 3 a figure could not be drawn or written, the others are.");
 }
 
 bool is_finite_time(const std::string& text) {
@@ -201,8 +176,8 @@ void add_report(CLI::App& program, int& status) {
       ->required();
   add_directory_option(
       command, options.directory,
-      "Directory for report.html, with its figures in the folder figures, comparison.html or "
-      "sweep.html; made if missing. Default: DIR; needed with several");
+      "Directory for report.html, comparison.html or sweep.html; made if missing. Default: DIR; "
+      "needed with several");
   command.add_option("--dygraphs", options.dygraphs,
                      "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
                      "Default: that of Debian's libjs-dygraphs");
@@ -229,19 +204,18 @@ void add_report(CLI::App& program, int& status) {
   command.footer(
       "report.html needs no other file and no network. In a browser it shows the beam moving, "
       "zoomable charts, force against indentation, a timeline with error bars and the table of "
-      "sub-impacts, linked; printed, or without scripts, it is a still report. Figures are drawn "
-      "with gnuplot.\n"
+      "sub-impacts, linked; printed, or without scripts, it is a still report. It has the figures "
+      "that `subimpact plot DIR` has drawn before.\n"
       "comparison.html shows the curves of several runs in common charts, the keys in which their "
       "cases differ, and their sub-impacts matched with those of the first.\n"
       "sweep.html shows a map of the runs of a sweep; a click opens the numbers of a run.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
-      "  subimpact report out/first\n"
+      "  subimpact plot out/first; subimpact report out/first\n"
       "  subimpact report out/first out/second --out out/both\n"
       "  subimpact report out/first --measured force.csv --low-pass 20kHz\n"
-      "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
-      "missing; 3 a figure could not be drawn, the page is written without it; or the page could "
-      "not be written, the figures are.");
+      "Exit status: 0 done; 2 bad command line, files that no run has written, or a page that "
+      "cannot be written.");
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ int run_stability(StabilityCommand& command) {
       }
     }
     print_warnings(directory.notes());
-    print("CSV files and figures in {}\n", command.directory);
+    print("CSV files in {0}; subimpact plot {0} draws them\n", command.directory);
     if (!session.listener.interrupted()) return all_done ? done : failed;
     return session.end_interrupted("; the parts that were finished are in " + command.directory);
   });
@@ -118,9 +118,9 @@ int run_stability(StabilityCommand& command) {
 }  // namespace
 
 void add_stability(CLI::App& program, int& status) {
-  auto [command, options] = add_command(
-      program, status, "stability",
-      "Find where each method fails, and how; as tables, CSV and figures", run_stability);
+  auto [command, options] =
+      add_command(program, status, "stability",
+                  "Find where each method fails, and how; as tables and CSV", run_stability);
   options.input.add_case_to(command);
   add_list_option(command, "--methods", options.methods,
                   "Only these methods, separated by commas; one without a table stands for all "
@@ -133,7 +133,7 @@ void add_stability(CLI::App& program, int& status) {
       "section)")
       ->check(CLI::IsMember({"critical", "contact", "damping", "map", "pairs", "layers"}));
   add_directory_option(command, options.directory,
-                       "Directory for CSV and figures; made if missing. Default: the case file's "
+                       "Directory for CSV files; made if missing. Default: the case file's "
                        "name without its ending, and -stability, in the current directory");
   add_seconds_option(command, "--run-seconds", options.run_seconds,
                      "Runs of the map that take longer are left out");
@@ -141,11 +141,11 @@ void add_stability(CLI::App& program, int& status) {
   command.footer(
       "Parts are printed and written one by one; after Ctrl-C the finished parts remain.\n"
       "Examples:\n"
-      "  subimpact stability case.toml --out out/stability\n"
+      "  subimpact stability case.toml --out out/stability; subimpact plot out/stability\n"
       "  subimpact stability case.toml --parts critical --methods central-difference,erk\n"
       "  subimpact stability case.toml --parts map --set time.end=2e-3\n"
-      "Exit status: 0 done; 2 bad command line or case file; 3 a part failed or its figure could "
-      "not be drawn, the other parts are complete; 130 stopped by Ctrl-C.");
+      "Exit status: 0 done; 2 bad command line or case file; 3 a part failed, the other parts are "
+      "complete; 130 stopped by Ctrl-C.");
 }
 
 }  // namespace subimpact::app

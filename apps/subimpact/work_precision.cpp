@@ -78,12 +78,8 @@ int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCas
     std::fflush(stdout);
     if (studies.back().interrupted) break;
   }
-  const auto write = [&](const std::filesystem::path& at) { draw_work_precision(at, studies); };
-  if (!write_after_printing(directory, write)) return failed;
-  print(
-      "work_precision.csv, work_precision.svg and .png, work_precision_evaluations.svg and .png in "
-      "{}\n",
-      command.directory);
+  print_warnings(directory.notes());
+  print("work_precision.csv in {0}; subimpact plot {0} draws it\n", command.directory);
   if (!studies.back().interrupted) return done;
   return session.end_interrupted(
       "; finished points are kept, and the same command continues from there");
@@ -106,7 +102,7 @@ int run_work_precision(WorkPrecisionCommand& command) {
 void add_work_precision(CLI::App& program, int& status) {
   auto [command, options] = add_command(
       program, status, "work-precision",
-      "Chart cost against error for every method, and recommend settings", run_work_precision);
+      "Compare cost and error of every method, and recommend settings", run_work_precision);
   options.input.add_case_to(command);
   add_list_option(command, "--methods", options.methods,
                   "Methods to sweep, separated by commas; a method's table after a colon, its "
@@ -115,7 +111,7 @@ void add_work_precision(CLI::App& program, int& status) {
                      "Section laws, separated by commas, each in a panel of its own. Default: the "
                      "case's");
   add_directory_option(command, options.directory,
-                       "Directory for CSV and figures; made if missing. Default: the case file's "
+                       "Directory for the CSV file; made if missing. Default: the case file's "
                        "name without its ending, and -work-precision, in the current directory");
   add_seconds_option(command, "--point-seconds", options.point_seconds,
                      "A setting that would take longer is reported as not run");
@@ -123,14 +119,13 @@ void add_work_precision(CLI::App& program, int& status) {
       "Each method is swept from coarse to fine, rtol in decades or fixed steps in halves, against "
       "a reference computed by two methods at rtol 1e-12. Runs end at the horizon, up to which the "
       "error of the reference is below 1e-4 us. Runs are timed one at a time: leave the machine "
-      "otherwise idle. After Ctrl-C the finished points are charted; the same command with "
+      "otherwise idle. After Ctrl-C the finished points are kept; the same command with "
       "the same --out continues.\n"
       "Examples:\n"
-      "  subimpact work-precision case.toml --out out/chart\n"
+      "  subimpact work-precision case.toml --out out/chart; subimpact plot out/chart\n"
       "  subimpact work-precision case.toml --methods central-difference,erk:dop853,nystrom\n"
       "  subimpact work-precision case.toml --sections elastic,exact,layers --set time.end=2e-3\n"
-      "Exit status: 0 done; 2 bad command line or case file; 3 a figure could not be drawn, or "
-      "results written; 130 "
+      "Exit status: 0 done; 2 bad command line or case file; 3 results could not be written; 130 "
       "stopped by Ctrl-C.");
 }
 

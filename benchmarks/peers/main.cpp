@@ -17,8 +17,6 @@
 
 #include "../measure.h"
 #include "contestants.h"
-#include "report/figures/gnuplot.h"
-#include "report/files.h"
 #include "subimpact/study/judgement/event_errors.h"
 
 namespace {
@@ -217,38 +215,12 @@ std::vector<const Attempt*> front(const Contestant& contestant) {
   return points;
 }
 
-std::string panel(const Section& section, const std::vector<Contestant>& all) {
-  std::string data;
-  std::string plots;
-  int number = 0;
+void write_front(std::ofstream& csv, const Section& section, const std::vector<Contestant>& all) {
   for (const Contestant& contestant : all) {
-    ++number;
-    const auto points = front(contestant);
-    if (points.empty()) continue;
-    const std::string block = fmt::format("${}{}", section.name, number);
-    data += block + " << EOD\n";
-    for (const Attempt* s : points)
-      data += fmt::format("{:.4e} {:.4e}\n", us * s->error, s->seconds);
-    data += "EOD\n";
-    plots += fmt::format("{}{} using 1:2 with linespoints lw {} lt {} title '{}'",
-                         plots.empty() ? "plot " : ", ", block, contestant.ours ? 3.0 : 1.2, number,
-                         contestant.name);
-  }
-  return data + fmt::format("set title '{}'\n", section.name) + plots + "\n";
-}
-
-void draw(const std::string& directory, const std::vector<std::string>& panels) {
-  std::string script(embedded_file("figures/style.gp"));
-  script += fmt::format(
-      "set logscale xy\nset format xy '10^{{%T}}'\nset xrange [1e-5:10]\n"
-      "set xlabel 'largest error of an event time, us'\nset ylabel 'processor time, s'\n"
-      "set key outside below maxcols 2 Left reverse font ',8'\nset multiplot layout 1,{}\n",
-      panels.size());
-  for (const std::string& one : panels) script += one;
-  script += "unset multiplot\n";
-  draw_figure(directory, "peers", script, {1700, 900});
-  for (const char* other : {".gp", ".png", ".pdf"}) {
-    std::filesystem::remove(directory + "/peers" + other);
+    for (const Attempt* s : front(contestant)) {
+      csv << fmt::format("{},\"{}\",{:d},{:.4e},{:.4e}\n", section.name, contestant.name,
+                         contestant.ours, us * s->error, s->seconds);
+    }
   }
 }
 
@@ -256,7 +228,7 @@ int run_program(int argc, char** argv) {
   CLI::App app{"The published strike by this program and by integrators of other libraries."};
   std::vector<std::string> names;
   std::vector<std::string> others;
-  std::string figure;
+  std::string table;
   std::string only;
   double end = 2e-3;
   app.add_option("--sections", names, "elastic, exact, layered (default: all)")->delimiter(',');
@@ -265,10 +237,12 @@ int run_program(int argc, char** argv) {
   app.add_option(
       "--also", others,
       "NAME=FILE.SECTION: runs of another program, one file per section (read where it exists)");
-  app.add_option("--figure", figure, "directory for the chart");
+  app.add_option("--table", table, "CSV file for the chart");
   app.footer("Exit status: 0 if this program reaches every wanted error, 1 if not.");
   CLI11_PARSE(app, argc, argv);
-  std::vector<std::string> panels;
+  std::ofstream csv;
+  if (!table.empty()) csv.open(table);
+  csv << "section,contestant,ours,error_us,seconds\n";
   bool reached = true;
   for (const Section& section : sections) {
     if (!names.empty() && std::ranges::find(names, section.name) == names.end()) continue;
@@ -301,9 +275,8 @@ int run_program(int argc, char** argv) {
     }
     for (const std::string& name : skipped) fmt::print("skipped: {}\n", name);
     reached = compare(section, all, reference.sub_impacts) && reached;
-    panels.push_back(panel(section, all));
+    write_front(csv, section, all);
   }
-  if (!figure.empty()) draw(figure, panels);
   return reached ? 0 : 1;
 }
 

@@ -183,18 +183,11 @@ class Result:
         return f"<Result {self._finished.brief()}>"
 
     def plot(self, axes: Any = None) -> Any:
-        """Draws the contact force over time, sub-impacts shaded; returns the axes of Matplotlib."""
-        import matplotlib.pyplot as plt
+        """Draws the contact force over time, sub-impacts shaded; returns the axes of Matplotlib. Other
+        figures: `subimpact.plot`."""
+        from .plot import force
 
-        if axes is None:
-            axes = plt.figure().add_subplot()
-        axes.plot(1e3 * self.history["time_s"], 1e-3 * self.history["force_N"])
-        for row in self.sub_impacts:
-            end = row["end_s"] if row["end_s"] == row["end_s"] else self.time
-            axes.axvspan(1e3 * row["start_s"], 1e3 * end, alpha=0.2, linewidth=0)
-        axes.set_xlabel("time, ms")
-        axes.set_ylabel("contact force, kN")
-        return axes
+        return force(self, axes)
 
 
 def read_results(directory: str | os.PathLike[str]) -> Result:

@@ -7,7 +7,6 @@
 #include "case/keys/case_choices.h"
 #include "io/directory/listed_files.h"
 #include "numerics/units.h"
-#include "report/figures/gnuplot.h"
 #include "report/study_columns.h"
 #include "subimpact/report/studies.h"
 
@@ -44,11 +43,8 @@ std::vector<DampingOfMethod> by_method(const std::vector<Damping>& rows) {
 template <class Row>
 StabilityPart part_of(const char* name, const StudyColumns<Row>& columns,
                       const std::vector<Row>& rows) {
-  StabilityPart part;
-  part.text = printed_table(columns, rows);
-  part.name = name;
-  part.tables = {{part.name + ".csv", csv_text(columns_in_file(columns), rows)}};
-  return part;
+  return {printed_table(columns, rows),
+          {{name + std::string(".csv"), csv_text(columns_in_file(columns), rows)}}};
 }
 
 std::string map_text(const OutcomeMap& map) {
@@ -94,8 +90,6 @@ StabilityPart part_of(const std::vector<CriticalStep>& rows) {
       {"measured_s", &CriticalStep::measured, {"measured, us", ">13", ".6g", us}},
       {"", difference<CriticalStep>, {"difference", ">10"}}};
   StabilityPart part = part_of("critical_steps", columns, rows);
-  part.width = 1180;
-  part.height = 560;
   std::string method;
   for (const CriticalStep& row : rows) {
     if (row.method == method) continue;
@@ -137,9 +131,6 @@ StabilityPart part_of(const std::vector<Damping>& rows,
       {"", &DampingOfMethod::largest, {"largest difference\nmeasured - predicted", ">22", ".1e"}}};
   return {
       printed_table(printed, by_method(rows)),
-      "damping",
-      1150,
-      520,
       {{"damping.csv", csv_text(columns, rows)}, {"bdf_growth.csv", csv_text(growth, growths)}}};
 }
 
@@ -160,7 +151,7 @@ StabilityPart part_of(const OutcomeMap& map) {
       {"max_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.maximum); }},
       {"energy_error", [=](const OutcomePoint& p) { return if_completed(p, p.energy_error); }},
       {"message", &OutcomePoint::message}};
-  return {map_text(map), "outcomes", 1400, 560, {{"outcomes.csv", csv_text(columns, map.points)}}};
+  return {map_text(map), {{"outcomes.csv", csv_text(columns, map.points)}}};
 }
 
 StabilityPart part_of(const std::vector<MissedPairs>& rows) {
@@ -198,7 +189,6 @@ StabilityPart part_of(const LayerStudy& study) {
 
 void write(const std::filesystem::path& directory, const StabilityPart& part) {
   for (const auto& [name, content] : part.tables) write_file(directory / name, content);
-  draw_figure(directory, part.name, figure_script(part.name), {part.width, part.height});
 }
 
 }  // namespace subimpact

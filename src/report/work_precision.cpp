@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <fstream>
-#include <limits>
 
 #include "case/counted.h"
 #include "io/directory/listed_files.h"
 #include "io/records/csv_reader.h"
 #include "numerics/units.h"
-#include "report/figures/gnuplot.h"
 #include "report/study_columns.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
@@ -121,18 +119,6 @@ std::string setting_text(const Trial& point) {
                      point.setting.text(), duration_text(point.seconds), point.errors.maximum * us);
 }
 
-std::string mark_of(Verdict verdict) {
-  if (verdict == Verdict::right) return "right";
-  if (verdict == Verdict::wrong_count) return "wrong";
-  return verdict == Verdict::refused || verdict == Verdict::not_run ? "" : "failed";
-}
-
-// An error below a tenth of the reference's cannot be distinguished from none and is shown as that.
-double shown_error(const Trial& point, const WorkPrecision& study) {
-  if (mark_of(point.verdict) == "failed") return std::numeric_limits<double>::quiet_NaN();
-  return us * std::max(point.errors.overall(), 0.1 * study.reference.error);
-}
-
 }  // namespace
 
 std::string case_id(const Case& input) {
@@ -214,30 +200,6 @@ void PointLog::append(const std::string& case_id, const std::string& label, cons
   append_row(text_, columns_in_file(point_columns()), row_of(case_id, label, point));
   write_file(directory_.staging() / file_name, text_);
   directory_.commit();
-}
-
-void draw_work_precision(const std::filesystem::path& directory,
-                         const std::vector<WorkPrecision>& studies) {
-  const int width = static_cast<int>(120 + 400 * studies.size() + 250);
-  const auto draw = [&](const char* name, const char* cost_label, auto cost) {
-    std::string labels, points = "panel,method,mark,error_us,cost\n";
-    for (std::size_t p = 0; p < studies.size(); ++p) {
-      labels += fmt::format("'{}' ", studies[p].label);
-      for (const Trial& point : studies[p].points) {
-        const std::string mark = mark_of(point.verdict);
-        if (mark.empty() || !(cost(point) > 0.0)) continue;
-        points += fmt::format("{},{},{},{:.17g},{:.17g}\n", p + 1, point.setting.method, mark,
-                              shown_error(point, studies[p]), cost(point));
-      }
-    }
-    const std::string settings =
-        fmt::format("labels = \"{}\"\ncost_label = '{}'\nwidth = {}\n$points << EOD\n{}EOD\n",
-                    labels, cost_label, width, points);
-    draw_figure(directory, name, figure_script("work_precision", settings), {width, 560});
-  };
-  draw("work_precision", "wall time (ms)", [](const Trial& point) { return 1e3 * point.seconds; });
-  draw("work_precision_evaluations", "evaluations of the right-hand side",
-       [](const Trial& point) { return static_cast<double>(point.work.right_hand_sides); });
 }
 
 }  // namespace subimpact

@@ -13,6 +13,7 @@ class ReportPage(PageTestCase):
     @classmethod
     def make(cls):
         directory = cls.program.run("strike")
+        cls.program("plot", "strike", "--format", "svg")
         cls.program("report", "strike")
         return directory / "report.html"
 

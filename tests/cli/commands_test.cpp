@@ -34,16 +34,14 @@ TEST(Listings, NameWhatThereIs) {
             "\"youngs_modulus\"", "\"hermite\"");
 }
 
-TEST(WorkPrecision, ChartsWhatItRanAndAdvises) {
+TEST(WorkPrecision, KeepsWhatItRanAndAdvises) {
   const TemporaryDirectory directory;
   const Words command = paper(
       "work-precision", {"time.end=3e-4"},
       {"--methods", "central-difference,exponential", "--sections", "elastic", "--out", "chart"});
   expect_in(run_in(directory, command).output, "reference: exponential", "horizon: 286.242 us",
             "central-difference", "cheapest setting", "0.001 us");
-  for (const char* name : {"work_precision.csv", "work_precision.svg", "work_precision.png"}) {
-    EXPECT_TRUE(directory.has(std::string("chart/") + name)) << name;
-  }
+  EXPECT_TRUE(directory.has("chart/work_precision.csv"));
   expect_in(run_in(directory, command).output, "points of an earlier study");
 }
 
@@ -74,9 +72,7 @@ TEST(Stability, WritesThePartsAskedFor) {
                                      "central-difference", "--out", "s"}))
                 .output,
             "euler-bernoulli", "spring, N/m");
-  for (const char* name : {"critical_steps.csv", "critical_steps.svg", "stiff_contact.png"}) {
-    EXPECT_TRUE(directory.has(std::string("s/") + name)) << name;
-  }
+  EXPECT_TRUE(directory.has("s/critical_steps.csv") && directory.has("s/stiff_contact.csv"));
   EXPECT_FALSE(directory.has("s/damping.csv"));
 }
 

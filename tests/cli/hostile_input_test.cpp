@@ -1,4 +1,3 @@
-#include "fake_gnuplot.h"
 #include "process.h"
 #include "reseal.h"
 
@@ -8,7 +7,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using ACaseFile = InADirectory;
-using AFigureThatFails = InADirectory;
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -20,52 +18,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 void make_run(const TemporaryDirectory& directory, const std::string& name) {
   run_in(directory, paper("run", {"time.end=1e-4", "model.segments=51", "output.sections=0.5"},
                           {"--out", name, "--quiet"}));
-}
-
-// A gnuplot that fails on the figure of that name and writes nothing for the others.
-std::string failing_on(const std::string& figure) {
-  return "case \"$4\" in " + figure + ".gp) echo broken >&2; exit 1;; esac\necho '<svg></svg>'\n";
-}
-
-// --- gnuplot ------------------------------------------------------------------------------------
-
-TEST(Figures, AreDrawnInDirectoriesOfAnyName) {
-  const TemporaryDirectory directory;
-  const Environment search("CDPATH", "/:/tmp");
-  make_run(directory, "run");
-  for (const std::string name : {"-", "-rf", "it's \"here\"", "a\nb", "$HOME `id` ;", "%s\\"}) {
-    fs::create_directory(directory.path / name);
-    run_in(directory, {"plot", "run", "--out=" + name});
-    EXPECT_TRUE(fs::exists(directory.path / name / "timeline.svg")) << name;
-  }
-}
-
-TEST_F(AFigureThatFails, IsNamedAndTheOthersAreDrawn) {
-  make_run(directory, "run");
-  const FakeGnuplot gnuplot(directory.path / "bin", failing_on("energies"));
-  for (const char* command : {"plot", "report"}) {
-    const Finished finished = run_in(directory, {command, "run"}, 3);
-    expect_in(finished.errors, "energies.svg: gnuplot failed with status 1 on energies.gp: broken");
-    expect_not_in(finished.errors, ".subimpact-");
-    EXPECT_TRUE(directory.has("run/figures/energies.gp")) << command;
-    EXPECT_TRUE(directory.has("run/figures/timeline.svg")) << command;
-    EXPECT_FALSE(directory.has("run/figures/energies.svg")) << command;
-  }
-  expect_in(directory.read("run/report.html"), "energies.svg: gnuplot failed");
-}
-
-TEST_F(AFigureThatFails, LeavesTheOtherPartsOfAStudy) {
-  const FakeGnuplot gnuplot(directory.path / "bin", failing_on("critical_steps"));
-  expect_in(run_in(directory,
-                   paper("stability", {"model.segments=21"},
-                         {"--parts", "critical,contact", "--methods", "central-difference", "--out",
-                          "study"}),
-                   3)
-                .errors,
-            "subimpact: critical: ");
-  for (const char* file : {"critical_steps.csv", "stiff_contact.csv", "stiff_contact.svg"}) {
-    EXPECT_TRUE(directory.has(std::string("study/") + file)) << file;
-  }
 }
 
 // --- text ---------------------------------------------------------------------------------------
@@ -187,9 +139,7 @@ TEST(ImpossibleResults, AreRefusedWithFileLineAndValue) {
     const std::string before = read_file(file);
     directory.write(std::string("run/") + change.file, replaced(before, change.from, change.to));
     reseal(directory.path / "run");  // a checksum would refuse each change first
-    for (const char* command : {"plot", "report"}) {
-      expect_in(run_in(directory, {command, "run"}, 2).errors, change.message);
-    }
+    expect_in(run_in(directory, {"report", "run"}, 2).errors, change.message);
     directory.write(std::string("run/") + change.file, before);
   }
 }

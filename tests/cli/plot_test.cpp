@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include <regex>
-#include <thread>
 
-#include "fake_gnuplot.h"
+#include "environment.h"
 #include "process.h"
 
 namespace subimpact {
@@ -12,57 +11,19 @@ namespace {
 using ARun = InADirectory;
 
 // On a run in the folder "here".
-class Plot : public testing::Test {
+class Report : public testing::Test {
  protected:
-  Plot() { make_run(); }
-  void make_run() const {
-    run_in(directory, paper("run", {"time.end=2e-4", "model.segments=51", "output.sections=0.5"},
-                            {"--out", "here"}));
+  Report() {
+    run_in(directory, paper("run", {"time.end=2e-4", "model.segments=51"}, {"--out", "here"}));
   }
   TemporaryDirectory directory;
 };
-using Report = Plot;
-using FiguresThatCannotBeWritten = Plot;
 
-TEST_F(Plot, DrawsTheFiguresOfARunIntoAFolderOfTheirOwn) {
-  const Finished finished = run_in(directory, {"plot", "here"});
-  EXPECT_EQ(finished.errors, "");
-  for (const std::string name : {"response", "first-sub-impact", "indentation", "energies",
-                                 "timeline", "bending", "shapes", "envelope"}) {
-    expect_in(finished.output, name + ".svg, " + name + ".png");
-    EXPECT_TRUE(directory.has("here/figures/" + name + ".svg")) << name;
-    EXPECT_TRUE(directory.has("here/figures/" + name + ".png")) << name;
-  }
-}
-
-TEST_F(Plot, OfARunLeavesNoFiguresToTheNextOne) {
-  run_in(directory, {"plot", "here"});
-  make_run();
-  EXPECT_FALSE(directory.has("here/figures/timeline.svg"));
-  run_in(directory, {"plot", "here"});
-}
-
-TEST_F(Plot, SaysOnStderrWhichSectionsItLeftOut) {
-  std::string sections = "output.sections=0.5";
-  for (int i = 1; i < 26; ++i) sections += ",0.3";
-  run_in(directory,
-         paper("run", {"time.end=1e-5", "model.segments=51", sections}, {"--out", "here"}));
-  for (const char* command : {"plot", "report"}) {
-    expect_in(run_in(directory, {command, "here"}).errors,
-              "subimpact: note: not drawn: bending: sections 25 to 26");
-  }
-}
-
-TEST_F(Plot, DrawsElsewhereIfAsked) {
-  run_in(directory, {"plot", "here", "--out", "there"});
-  EXPECT_TRUE(directory.has("there/timeline.svg"));
-  EXPECT_FALSE(directory.has("here/figures/timeline.svg"));
-}
-
-TEST_F(Plot, OfWhatIsNoRunEndsWithStatus2AndSaysWhatIsMissing) {
-  const Finished nowhere = run_in(directory, {"plot", "nowhere"}, 2);
-  expect_in(nowhere.errors, "nowhere: is not a directory");
-  expect_in(run_in(directory, {"plot", "."}, 2).errors, "summary.json: cannot be read");
+TEST(APlot, WithoutPythonEndsWithStatus2AndOneLineThatSaysHowToGetIt) {
+  const Environment nowhere("SUBIMPACT_PYTHON_EXECUTABLE", "/nowhere/python3");
+  const std::string errors = run_anywhere({"plot", "here"}, 2).errors;
+  expect_in(errors, "/nowhere/python3: cannot be run", "python3-matplotlib");
+  EXPECT_EQ(count_in(errors, "\n"), 1u);
 }
 
 TEST_F(ARun, KeepsSectionsWithErrorBarsToo) {
@@ -75,6 +36,7 @@ TEST_F(Report, IsOnePageBesideTheRun) {
   expect_in(run_in(directory, {"report", "here"}).output, "here/report.html");
   const std::string page = directory.read("here/report.html");
   expect_in(page, "<!DOCTYPE html>", "</html>");
+  EXPECT_FALSE(directory.has("here/figures"));
 }
 
 TEST_F(Report, OfSeveralRunsComparesThemInADirectoryOfItsOwn) {
@@ -85,77 +47,6 @@ TEST_F(Report, OfSeveralRunsComparesThemInADirectoryOfItsOwn) {
   expect_in(directory.read("both/comparison.html"), "<td>solver.rtol</td>");
   expect_in(run_in(directory, {"report", "here", "there"}, 2).errors,
             "--out DIR must name the directory");
-}
-
-TEST_F(Plot, DrawsWithScriptsOfAUserAndHandsOutThoseThatAreMissing) {
-  expect_in(run_in(directory, {"plot", "here", "--scripts", "mine"}).output, "mine/response.gp");
-  directory.write("mine/timeline.gp", "plot nonsense from a user\n");
-  expect_in(run_in(directory, {"plot", "here", "--scripts", "mine"}, 3).errors,
-            "timeline.svg: gnuplot failed");
-  EXPECT_TRUE(directory.has("here/figures/response.pdf"));
-}
-
-TEST_F(Plot, WithoutGnuplotEndsWithStatus2AndSaysHowToGetIt) {
-  const Environment without_gnuplot("PATH", "/nowhere");
-  expect_in(run_in(directory, {"plot", "here"}, 2).errors, "gnuplot is not installed",
-            "apt-get install gnuplot-nox");
-}
-
-TEST_F(Plot, DrawsNoScriptThatHoldsTheDataOfAnotherRun) {
-  run_in(directory, {"plot", "here", "--out", "drawn"});
-  std::filesystem::create_directory(directory.path / "mine");
-  std::filesystem::copy_file(directory.path / "drawn" / "timeline.gp",
-                             directory.path / "mine" / "timeline.gp");
-  expect_in(run_in(directory, {"plot", "here", "--scripts", "mine", "--out", "there"}, 2).errors,
-            "mine/timeline.gp", "finished script");
-  EXPECT_FALSE(directory.has("there"));
-  EXPECT_FALSE(directory.has("mine/style.gp"));
-}
-
-TEST_F(Plot, RefusesTheDirectoryOfTheRunOrOfTheFiguresAsThatOfTheScripts) {
-  for (const char* scripts : {"here", "./here/", "there"}) {
-    expect_in(run_in(directory, {"plot", "here", "--scripts", scripts, "--out", "there"}, 2).errors,
-              "is the directory of the run or of its figures; name another");
-    EXPECT_FALSE(std::filesystem::exists(directory.path / scripts / "style.gp"));
-  }
-}
-
-TEST_F(FiguresThatCannotBeWritten, LeaveTheOthersAndEndWithStatus3) {
-  run_in(directory, {"plot", "here", "--out", "whole"});
-  std::filesystem::path longest;
-  for (const auto& entry : std::filesystem::directory_iterator(directory.path / "whole")) {
-    if (longest.empty() || entry.file_size() > file_size(longest)) longest = entry.path();
-  }
-  const std::string name = longest.stem().string();
-  const std::string other = name == "response" ? "timeline" : "response";
-  for (const std::string command : {"plot", "report"}) {
-    const Finished finished = run_program({command, "here", "--out", command}, directory.path, 0,
-                                          SIGINT, file_size(longest) - 1);
-    EXPECT_EQ(finished.status, 3) << command;
-    expect_in(finished.errors, longest.filename().string() + ": cannot be written");
-    const std::filesystem::path place =
-        command == "plot" ? directory.path / "plot" : directory.path / "report/figures";
-    EXPECT_FALSE(std::filesystem::exists(place / (name + ".gp")));
-    for (const char* ending : {".svg", ".png", ".pdf", ".gp"}) {
-      EXPECT_TRUE(std::filesystem::exists(place / (other + ending))) << other << ending;
-    }
-    EXPECT_FALSE(directory.has("report/report.html"));  // longer than any figure
-    if (command == "report") expect_in(finished.errors, "report.html: cannot be written");
-  }
-}
-
-TEST_F(Plot, TakesGnuplotWithItWhenASignalEndsIt) {
-  const std::filesystem::path number = directory.path / "number";
-  // The parent of the command that limits gnuplot's time.
-  const FakeGnuplot gnuplot(directory.path / "bin",
-                            "echo $$ > " + number.string() +
-                                "\nkill -TERM $(cut -d' ' -f4 /proc/$PPID/stat)\nexec sleep 300\n");
-  run_in(directory, {"plot", "here"}, -SIGTERM);
-  ASSERT_TRUE(std::filesystem::exists(number));
-  for (int i = 0; i < 300 && is_running(number); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  EXPECT_FALSE(is_running(number));
 }
 
 // A run in the folder "here", and its force as a recorder would have it: 0.25 us apart, 1 % too
@@ -194,9 +85,8 @@ TEST_F(ReportWithMeasurement, StatesShiftAndDifferencesAndShowsBothForces) {
   EXPECT_NEAR(number("shift +([0-9.]+)"), 1234.5, 0.025);
   EXPECT_NEAR(number("largest force .* measured: ([-+0-9.]+) %"), -0.99, 0.06);
   EXPECT_NEAR(number("impulse .* measured: ([-+0-9.]+) %"), -0.99, 0.06);
-  EXPECT_TRUE(directory.has("here/figures/measured.svg"));
   const std::string page = directory.read("here/report.html");
-  expect_in(page, "Compared with the measurement", "figure-measured", "\"overlay\":[{");
+  expect_in(page, "Compared with the measurement", "\"overlay\":[{");
   run_in(directory, {"report", "here"});
   expect_not_in(directory.read("here/report.html"), "Compared with the measurement");
 }

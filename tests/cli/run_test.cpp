@@ -194,10 +194,10 @@ TEST_F(Memory, OfARunDoesNotGrowWithItsRows) {
                                                     {"model.segments=41", "model.section=elastic",
                                                      "time.end=1e-3", "output.interval=2.5e-9"},
                                                     {"--out", "here", "--quiet"}));
-  const Finished drawn = run_in(directory, {"plot", "here"});
+  const Finished page = run_in(directory, {"report", "here"});
   if (has_address_sanitizer) GTEST_SKIP() << "the address sanitizer takes memory of its own";
   EXPECT_LT(finished.megabytes, 100.0);
-  EXPECT_LT(drawn.megabytes, 200.0);
+  EXPECT_LT(page.megabytes, 200.0);
 }
 
 TEST_F(Memory, OfExplainIsSmallAndThatOfTheRunIsForecast) {

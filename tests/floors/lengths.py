@@ -12,7 +12,6 @@ from pathlib import Path
 FILE, FUNCTION, FOLDER, SCRIPTS = 450, 60, 18, 13
 
 EXCEPTIONS = {
-    "src/report/figures": "scripts of gnuplot, one a figure; they go when figures are drawn by Python",
     "src/case/keys/case_keys.cpp: make_case_keys()": "a table: one row a key",
     "src/io/records/run_record.cpp: make_run_record()": "a table: one row a field",
     "src/simulate/settings/methods.cpp: make_descriptors()": "a table: one entry a method",

@@ -8,33 +8,36 @@
 #include <vector>
 
 #include "subimpact/io/read_results.h"
-#include "subimpact/report/figures.h"
+#include "subimpact/study/overlay.h"
 
 namespace subimpact {
 
+/// Figures that `subimpact plot` has drawn.
+struct DrawnFigures {
+  struct Figure {
+    std::string name;     ///< of its files, without ending
+    std::string caption;  ///< one or two sentences
+    std::string svg;
+  };
+  std::vector<Figure> drawn;
+  std::vector<std::string> left_out;  ///< with the reasons
+};
+
+/// The figures of the run or sweep of that identity in a directory, as figures.json lists them;
+/// those that were changed since are left out. None if there are none, or those of other results.
+DrawnFigures read_figures(const std::filesystem::path& directory, const std::string& identity);
+
 /// A run as a page. With scripts it shows the moving beam and panels that share one time; without
-/// scripts, or printed, it is a still report. The figures' SVG files are read from
-/// `figure_directory`, and the library of the zoomable charts from `dygraphs` (empty: where
-/// Debian's libjs-dygraphs has it); without the library the page lacks those charts and states how
-/// to get them. With `overlay` it has a section on a measured force. Throws ResultsError if a
-/// figure cannot be read.
-std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
-                        const std::filesystem::path& figure_directory,
+/// scripts, or printed, it is a still report, with these figures. The library of the zoomable
+/// charts is read from `dygraphs` (empty: where Debian's libjs-dygraphs has it); without it the
+/// page lacks those charts and states how to get them. With `overlay` it has a section on a
+/// measured force.
+std::string html_report(const FinishedRun& run, const DrawnFigures& figures = {},
                         const std::filesystem::path& dygraphs = {},
                         const Overlay* overlay = nullptr);
 
-struct WrittenReport {
-  std::filesystem::path page;  ///< empty if it could not be written; `figures.failed` has the cause
-  DrawnFigures figures;
-  std::string charts_missing;  ///< why the page has no zoomable charts; empty if it has
-};
-
-/// Draws the figures of a run into a directory of their own and writes report.html into another,
-/// without those that failed. Throws GnuplotMissing.
-WrittenReport write_html_report(const std::filesystem::path& directory,
-                                const std::filesystem::path& figure_directory,
-                                const FinishedRun& run, const std::filesystem::path& dygraphs = {},
-                                const Overlay* overlay = nullptr);
+/// Why pages have no zoomable charts; empty if they have.
+std::string why_no_charts(const std::filesystem::path& dygraphs);
 
 /// A comparison of runs as a page: the keys in which their cases differ, curves in common charts,
 /// and the sub-impacts of each run matched with those of the first. `names`: one per run.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Studies as text, CSV files and figures. Functions that write files throw OutputError.
+/// Studies as text and CSV files. Functions that write files throw OutputError.
 
 #include <filesystem>
 #include <optional>
@@ -32,12 +32,6 @@ std::string work_precision_table(const WorkPrecision& study);
 /// One sentence for each wanted error.
 std::string recommendation_text(const std::vector<Recommendation>& recommendations);
 
-/// work_precision.svg and .png (wall time), work_precision_evaluations.svg and .png (right-hand
-/// sides): error on x, cost on y, one panel per study. Runs that found all sub-impacts are filled
-/// marks, those that lost or invented some hollow, those that failed crosses at the right edge.
-void draw_work_precision(const std::filesystem::path& directory,
-                         const std::vector<WorkPrecision>& studies);
-
 /// work_precision.csv in a directory, written point by point, so that an interrupted study keeps
 /// its points and a repeated study continues from there.
 class PointLog {
@@ -63,11 +57,9 @@ class PointLog {
 /// outputs and those that a study sets (method, table, tolerance, step).
 std::string case_id(const Case& input);
 
-/// A part of a stability study: its printed text, and CSV files with the figure drawn from them.
+/// A part of a stability study: its printed text and CSV files.
 struct StabilityPart {
-  std::string text;  ///< empty: there is nothing to show
-  std::string name;  ///< of the figure and of the first file
-  int width = 760, height = 500;
+  std::string text;                                         ///< empty: there is nothing to show
   std::vector<std::pair<std::string, std::string>> tables;  ///< names of files, and contents
 };
 

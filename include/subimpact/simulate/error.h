@@ -7,15 +7,7 @@
 namespace subimpact {
 
 /// The kinds of errors; each has its type below.
-enum class ErrorKind {
-  invalid_case,
-  case_file,
-  results,
-  output,
-  directory_in_use,
-  figure,
-  gnuplot_missing
-};
+enum class ErrorKind { invalid_case, case_file, results, output, directory_in_use };
 
 /// An error that a user can correct. `what()` states what is wrong, what is allowed and what to do.
 class Error : public std::runtime_error {
@@ -52,11 +44,5 @@ using OutputError = ErrorOf<ErrorKind::output>;
 
 /// Another process writes into the directory.
 using DirectoryInUse = ErrorOf<ErrorKind::directory_in_use, OutputError>;
-
-/// A figure that gnuplot does not draw. Tables and other figures are not affected.
-using FigureError = ErrorOf<ErrorKind::figure, OutputError>;
-
-/// gnuplot cannot be started, for this figure or any other.
-using GnuplotMissing = ErrorOf<ErrorKind::gnuplot_missing, FigureError>;
 
 }  // namespace subimpact

@@ -333,8 +333,7 @@ void refuse_other_files(const std::filesystem::path& path) {
       {".csv", "a table"},   {".json", "a summary of results"},
       {".html", "a page"},   {".svg", "a picture"},
       {".png", "a picture"}, {".pdf", "a picture"},
-      {".gp", "a script"},   {".py", "a script"},
-      {".md", "a text"}};
+      {".py", "a script"},   {".md", "a text"}};
   for (const auto& [ending, what] : kinds) {
     if (path.extension() != ending) continue;
     const std::filesystem::path beside = path.parent_path() / "case.toml";

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <utility>
+#include <optional>
 
 #include "case/counted.h"
 #include "io/directory/listed_files.h"
+#include "io/records/record.h"
 #include "io/records/run_record.h"
 #include "report/pages/page.h"
 #include "report/text/uncertain.h"
@@ -61,11 +62,10 @@ Json tiles(const std::vector<Answer>& all) {
   });
 }
 
-Json figure_list(const DrawnFigures& figures, const std::filesystem::path& figure_directory) {
-  return list_of(figures.drawn, [&, number = 0](const DrawnFigure& figure) mutable -> Json {
-    const std::string svg = read_whole_file(figure_directory / (figure.name + ".svg"));
+Json figure_list(const DrawnFigures& figures) {
+  return list_of(figures.drawn, [number = 0](const auto& figure) mutable -> Json {
     return {{"name", figure.name},
-            {"svg", inlined_svg(svg, figure.name)},
+            {"svg", inlined_svg(figure.svg, figure.name)},
             {"number", ++number},
             {"caption", figure.caption}};
   });
@@ -104,8 +104,36 @@ Json flights(const std::optional<ErrorEstimate>& estimate) {
 
 }  // namespace
 
+DrawnFigures read_figures(const std::filesystem::path& directory, const std::string& identity) {
+  constexpr const char* list = "figures.json";
+  DrawnFigures figures;
+  const std::optional<Manifest> manifest = read_manifest(directory);
+  if (!manifest || manifest->identity != identity || !manifest->files.contains(list))
+    return figures;
+  const auto is_as_drawn = [&](const std::string& name) {
+    const auto listed = manifest->files.find(name);
+    return listed != manifest->files.end() && fingerprint_of(directory / name) == listed->second;
+  };
+  if (!is_as_drawn(list)) return figures;
+  read_json(
+      directory / list, read_whole_file(directory / list), "a list of figures", "",
+      [&](const auto& json) {
+        for (const auto& entry : json.at("figures")) {
+          const std::string name = entry.at("name"), file = name + ".svg";
+          if (is_as_drawn(file)) {
+            figures.drawn.push_back({name, entry.at("caption"), read_whole_file(directory / file)});
+          } else {
+            figures.left_out.push_back(name + ": has no SVG file, or one that was changed");
+          }
+        }
+        for (const std::string reason : json.at("left_out")) {
+          figures.left_out.push_back(reason);
+        }
+      });
+  return figures;
+}
+
 std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
-                        const std::filesystem::path& figure_directory,
                         const std::filesystem::path& dygraphs, const Overlay* overlay) {
   const Result& result = run.result;
   const Scene& scene = run.input.scene;
@@ -148,9 +176,9 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
                                       : Json(nullptr)},
       {"flights", flights(result.error_estimate)},
       {"summary", in_print(run_summary(run.input, result, true))},
-      {"figures", figure_list(figures, figure_directory)},
+      {"figures", figure_list(figures)},
+      {"no_figures", figures.drawn.empty()},
       {"left_out", figures.left_out},
-      {"failed", figures.failed},
       {"numbers", list_of(scalars_of(run), [](const NamedScalar& scalar) -> Json {
          return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
        })}};
@@ -160,21 +188,8 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
                      "pages/web/motion.js", "pages/web/panels.js", "pages/web/report.js"});
 }
 
-WrittenReport write_html_report(const std::filesystem::path& directory,
-                                const std::filesystem::path& figure_directory,
-                                const FinishedRun& run, const std::filesystem::path& dygraphs,
-                                const Overlay* overlay) {
-  DrawnFigures figures = draw_figures(figure_directory, run.input, run.result, {}, overlay);
-  std::filesystem::path path = directory / "report.html";
-  try {
-    write_file(path, html_report(run, figures, figure_directory, dygraphs, overlay));
-  } catch (const OutputError& error) {
-    figures.failed.push_back(error.what());
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-    path.clear();
-  }
-  return {path, std::move(figures), chart_library(dygraphs).missing};
+std::string why_no_charts(const std::filesystem::path& dygraphs) {
+  return chart_library(dygraphs).missing;
 }
 
 }  // namespace subimpact

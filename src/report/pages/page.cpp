@@ -152,8 +152,6 @@ std::string inlined_svg(const std::string& svg, const std::string& prefix) {
   std::string text = svg.substr(svg.find("<svg"));
   erase_between(text, " xmlns=\"", "\"");
   erase_between(text, " xmlns:xlink=\"", "\"");
-  erase_between(text, "<title>", "</title>");  // "gnuplot_plot_1"
-  erase_between(text, "<desc>", "</desc>");
   replace_all(text, "xlink:href", "href");
   for (const std::string mark : {"id=\"", "id='", "href=\"#", "href='#", "url(#"}) {
     replace_all(text, mark, mark + prefix + "-");

@@ -173,7 +173,7 @@ TEST(BadCaseFile, IsNeitherATableNorAPictureNorAScript) {
                                    {"summary.json", "a summary of results"},
                                    {"report.html", "a page"},
                                    {"response.svg", "a picture"},
-                                   {"response.gp", "a script"}}) {
+                                   {"figures.py", "a script"}}) {
     const std::string path = std::string("/nowhere/") + name;
     expect_in(message_of<CaseFileError>([&] { read_case_file(path); }), name, what, "no case file",
               "subimpact new");

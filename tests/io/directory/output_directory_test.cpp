@@ -102,9 +102,9 @@ TEST_F(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
   directory.write("notes.txt", "mine");
   directory.write("transitions.csv", "mine");
   fs::create_symlink("notes.txt", directory.path / "summary.json");
-  make(directory.path, "run", "1", {{"figure.gp", "drawn"}, {"events.csv", "old"}});
+  make(directory.path, "run", "1", {{"figure.svg", "drawn"}, {"events.csv", "old"}});
   std::ofstream(directory.path / "events.csv", std::ios::app) << " and my remark";
-  std::ofstream(directory.path / "figure.gp", std::ios::app) << " and my colours";
+  std::ofstream(directory.path / "figure.svg", std::ios::app) << " and my colours";
   OutputDirectory files(directory.path, "run");
   for (const char* name : {"events.csv", "transitions.csv", "summary.json"}) {
     write_file(files.staging() / name, "new");
@@ -113,15 +113,15 @@ TEST_F(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
   EXPECT_EQ(directory.read("notes.txt"), "mine");
   EXPECT_EQ(directory.read("transitions.csv.kept"), "mine");
   EXPECT_EQ(directory.read("events.csv.kept"), "old and my remark");
-  EXPECT_EQ(directory.read("figure.gp"), "drawn and my colours");
+  EXPECT_EQ(directory.read("figure.svg"), "drawn and my colours");
   EXPECT_TRUE(fs::is_symlink(directory.path / "summary.json.kept"));
   EXPECT_EQ(directory.read("summary.json"), "new");
   EXPECT_EQ(files.notes().size(), 4u);
 }
 
 TEST_F(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
-  make(directory.path, "run", "1", {{"figure.gp", "drawn"}, {"events.csv", "old"}});
-  std::ofstream(directory.path / "figure.gp", std::ios::app) << " and my colours";
+  make(directory.path, "run", "1", {{"figure.svg", "drawn"}, {"events.csv", "old"}});
+  std::ofstream(directory.path / "figure.svg", std::ios::app) << " and my colours";
   {
     OutputDirectory files(directory.path, "run", "2");
     commit(files, "events.csv", "new");
@@ -129,7 +129,7 @@ TEST_F(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
   }
   const OutputDirectory later(directory.path, "figures", "2");
   EXPECT_EQ(later.notes(), Names());
-  EXPECT_EQ(directory.read("figure.gp"), "drawn and my colours");
+  EXPECT_EQ(directory.read("figure.svg"), "drawn and my colours");
 }
 
 TEST_F(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {

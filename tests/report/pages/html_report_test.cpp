@@ -5,6 +5,8 @@
 #include "case_with.h"
 #include "report/pages/page.h"
 #include "sample_result.h"
+#include "subimpact/io/output_directory.h"
+#include "subimpact/io/results.h"
 #include "temporary_directory.h"
 #include "testing.h"
 
@@ -40,17 +42,15 @@ except xml.etree.ElementTree.ParseError as error:
   return problem.substr(0, problem.find('\n'));
 }
 
-// Well-formed pages, with figures and without.
-std::string page_with_figures(const FinishedRun& run, const std::string& dygraphs = {}) {
-  const TemporaryDirectory directory;
-  const DrawnFigures figures = draw_figures(directory.path, run.input, run.result);
-  const std::string page = html_report(run, figures, directory.path, dygraphs);
-  EXPECT_EQ(xml_problem(page), "");
-  return page;
-}
+// A figure whose names are those of another.
+const DrawnFigures two_figures = {{{"response", "Force <over> time.", R"svg(<?xml version="1.0"?>
+<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"><defs>
+<path id="m1" d="M0 0"/></defs><use xlink:href="#m1" clip-path="url(#m1)"/></svg>)svg"},
+                                   {"bending", "Loops.", "<svg><path id=\"m1\"/></svg>"}},
+                                  {"shapes: none"}};
 
 std::string page_of(const FinishedRun& run, const std::string& dygraphs = {}) {
-  const std::string page = html_report(run, {}, ".", dygraphs);
+  std::string page = html_report(run, {}, dygraphs);
   EXPECT_EQ(xml_problem(page), "");
   return page;
 }
@@ -81,23 +81,50 @@ TEST(XmlProblem, IsFoundWhereThereIsOne) {
 }
 
 TEST(HtmlReport, IsWellFormedAndNeedsNothingFromOutside) {
-  page_with_figures(small_run());
-  const std::string page = page_with_figures(small_run(), "/nowhere");  // no library of charts
+  const std::string page = html_report(small_run(), two_figures, "/nowhere");  // no charts
+  EXPECT_EQ(xml_problem(page), "");
   expect_not_in(page, "http:", "https:", "src=", "<link", "@import", "<img", "<iframe", "url(\"",
                 "url('", "file:");
   // References within figures lead to ids of the same figure.
-  expect_in(page, "href='#response-gp", "id='response-gp");
+  expect_in(page, "href=\"#response-m1\"", "url(#response-m1)", "id=\"response-m1\"",
+            "id=\"bending-m1\"");
 }
 
 TEST(HtmlReport, HoldsCaseSummaryTableFiguresAndConservation) {
   const FinishedRun run = small_run();
-  const std::string page = page_with_figures(run);
+  const std::string page = html_report(run, two_figures);
   expect_in(page, "Beam &lt;A&gt; &amp; &quot;B&quot;", "Summary", "Figures", "figure-response",
-            "figure-bending", "figure-shapes", "figure-envelope", "Figure 8.", "Sub-impacts",
-            "peak force", "Case", "[striker]", "velocity = 15.9  # m/s", "erk, table dop853",
-            "no error bars were computed", "conservation        energy to", "contact over",
-            "subimpact 1.2.3, SUNDIALS 6.4.1");
+            "Figure 2.</b> Loops.", "Force &lt;over&gt; time.", "Not drawn: shapes: none",
+            "Sub-impacts", "peak force", "Case", "[striker]", "velocity = 15.9  # m/s",
+            "erk, table dop853", "no error bars were computed", "conservation        energy to",
+            "contact over", "subimpact 1.2.3, SUNDIALS 6.4.1");
   EXPECT_EQ(count_in(page, "<tr data-hit"), run.result.sub_impacts.size());
+  expect_not_in(page, "None: <code>subimpact plot</code>");
+  expect_in(html_report(run), "None: <code>subimpact plot</code> draws them");
+}
+
+TEST(FiguresOfARun, AreThoseThatWereDrawnOfItAndNotChangedSince) {
+  const TemporaryDirectory directory;
+  {
+    OutputDirectory files(directory.path, "figures", "1");
+    const std::string list =
+        R"({"figures": [{"name": "a", "caption": "A."}, {"name": "b", "caption": "B."}],
+            "left_out": ["c: no data"], "failed": []})";
+    for (const auto& [name, text] : {std::pair<std::string, std::string>("figures.json", list),
+                                     {"a.svg", "<svg/>"},
+                                     {"b.svg", "<svg/>"}}) {
+      std::ofstream(files.staging() / name) << text;
+    }
+    files.commit();
+  }
+  EXPECT_EQ(read_figures(directory.path, "1").drawn.size(), 2u);
+  EXPECT_TRUE(read_figures(directory.path, "2").drawn.empty());
+  EXPECT_TRUE(read_figures(directory.path / "none", "1").drawn.empty());
+  directory.write("b.svg", "<script/>");
+  const DrawnFigures figures = read_figures(directory.path, "1");
+  ASSERT_EQ(figures.drawn.size(), 1u);
+  EXPECT_EQ(figures.drawn[0].caption, "A.");
+  EXPECT_EQ(figures.left_out.size(), 2u);
 }
 
 TEST(HtmlReport, ListsEveryNumberOfTheSummary) {

@@ -17,8 +17,6 @@
 #include <string>
 #include <vector>
 
-#include "report/figures/gnuplot.h"
-#include "report/files.h"
 #include "scenes.h"
 #include "taylor.h"
 
@@ -260,28 +258,15 @@ void print(const std::vector<Score>& scores) {
   }
 }
 
-void draw(const std::string& directory, const std::vector<Score>& scores) {
-  std::string script(subimpact::embedded_file("figures/style.gp"));
-  std::string plots;
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    script += fmt::format("$data{} << EOD\n", i);
-    for (const auto& [bin, counts] : scores[i].by_half_decade) {
-      script += fmt::format("{:.6e} {:.3f}\n", std::pow(10.0, bin / bins_per_decade),
-                            100.0 * counts.second / counts.first);
+void write_shares(const std::string& file, const std::vector<Score>& scores) {
+  std::ofstream csv(file);
+  csv << "finder,ours,depth,percent\n";
+  for (const Score& score : scores) {
+    for (const auto& [bin, counts] : score.by_half_decade) {
+      csv << fmt::format("\"{}\",{:d},{:.6e},{:.3f}\n", score.name, score.ours,
+                         std::pow(10.0, bin / bins_per_decade),
+                         100.0 * counts.second / counts.first);
     }
-    script += "EOD\n";
-    plots += fmt::format("{}$data{} using 1:2 with linespoints lw {} lt {} title '{}'",
-                         i ? ", " : "", i, scores[i].ours ? 3 : 1.5, i + 1, scores[i].name);
-  }
-  script +=
-      "set logscale x\nset xrange [8e-14:1.2e-2]\nset format x '10^{%T}'\n"
-      "set yrange [-3:103]\nset xlabel 'depth of the graze over the amplitude'\n"
-      "set ylabel 'grazes found with both events, %'\nset key outside right Left reverse\n"
-      "plot " +
-      plots + "\n";
-  subimpact::draw_figure(directory, "found", script, {1100, 480});
-  for (const char* other : {".gp", ".png", ".pdf"}) {
-    std::filesystem::remove(directory + "/found" + other);
   }
 }
 
@@ -290,11 +275,11 @@ int run_program(int argc, char** argv) {
   std::string file;
   std::vector<std::string> others;
   std::string only;
-  std::string figure;
+  std::string shares;
   app.add_option("scenes", file, "scenes and their events, by scenes.py")->required();
   app.add_option("--also", others, "NAME=FILE: events that another program has found");
   app.add_option("--only", only, "finders whose name contains this");
-  app.add_option("--figure", figure, "directory for the figure");
+  app.add_option("--shares", shares, "CSV file for the shares found, by depth");
   app.footer(
       "Exit status: 0 if located events miss none deeper than 1e-12 of the amplitude and "
       "invent none; 1 if not so.");
@@ -333,7 +318,7 @@ int run_program(int argc, char** argv) {
       for (std::size_t i = 0; i < sums.size(); ++i) sums[i].add(scores[i]);
     }
   }
-  if (!figure.empty()) draw(figure, sums);
+  if (!shares.empty()) write_shares(shares, sums);
   const bool kept = std::ranges::all_of(sums, [](const Score& s) {
     return !s.ours || (s.missed_above_promise == 0 && s.invented == 0 && s.failed == 0);
   });

@@ -15,8 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "report/figures/gnuplot.h"
-#include "report/files.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/other_mesh.h"
@@ -33,14 +31,13 @@ enum class Kind { cells, without_hinges, elements, graded };
 
 struct KindName {
   Kind kind;
-  const char* name;   // in tables and in the figure's data
-  const char* title;  // in the figure's key
+  const char* name;
 };
 constexpr KindName kinds[] = {
-    {Kind::cells, "cells", "cells"},
-    {Kind::without_hinges, "without_hinges", "elements without hinges"},
-    {Kind::elements, "elements", "elements"},
-    {Kind::graded, "graded", "graded elements"},
+    {Kind::cells, "cells"},
+    {Kind::without_hinges, "without_hinges"},
+    {Kind::elements, "elements"},
+    {Kind::graded, "graded"},
 };
 constexpr double refinement = 4.0;  // of graded elements, over the default length
 
@@ -249,46 +246,6 @@ void write_points(const std::string& directory, const std::vector<Point>& points
   }
 }
 
-void draw(const std::string& directory, const std::vector<Point>& points) {
-  std::string script(embedded_file("figures/style.gp"));
-  const auto block = [&](const std::string& section, const std::string& mesh) {
-    script += fmt::format("${}_{} << EOD\n", section, mesh);
-    for (const Point& p : points) {
-      if (p.section == section && p.mesh == mesh) {
-        script += fmt::format("{} {:.6e}\n", p.unknowns, p.error * us);
-      }
-    }
-    script += "EOD\n";
-  };
-  const auto plot = [&](const std::string& section, const std::string& title) {
-    script += fmt::format("set title '{}'\nplot ", title);
-    int style = 0;
-    for (const KindName& kind : kinds) {
-      ++style;
-      if (section == "elastic" && kind.kind == Kind::without_hinges) continue;
-      script += fmt::format("${}_{} using 1:2 with linespoints lw 2 lt {} title '{}', ", section,
-                            kind.name, style, kind.title);
-    }
-    script += "1 with lines dt 2 lc 'grey40' notitle, 0.1 with lines dt 2 lc 'grey40' notitle\n";
-  };
-  for (const char* section : {"elastic", "exact"}) {
-    for (const KindName& kind : kinds) block(section, kind.name);
-  }
-  script +=
-      "set logscale xy\nset format y '10^{%T}'\nset xlabel 'unknowns of the half model'\n"
-      "set ylabel 'largest error of a start or end, us'\nset xrange [60:2000]\n"
-      "set yrange [1e-3:2e2]\nset xtics (100, 200, 500, 1000, 2000)\n"
-      "set key bottom left Left reverse\nset multiplot layout 1,2\n";
-  plot("elastic", "elastic sections");
-  plot("exact", "sections that yield (exact)");
-  script += "unset multiplot\n";
-  draw_figure(directory, "convergence", script, {1100, 480});
-  // The study itself is the script, and the page shows the SVG.
-  for (const char* other : {".gp", ".png"}) {
-    std::filesystem::remove(directory + "/convergence" + other);
-  }
-}
-
 }  // namespace
 
 int main() {
@@ -316,7 +273,6 @@ int main() {
   print_needed(yielding);
   points.insert(points.end(), yielding.begin(), yielding.end());
   write_points(directory, points);
-  draw(directory, points);
   auto on_cells = run_all(Kind::cells, limit_cells);
   auto on_elements = run_all(Kind::graded, limit_elements);
   write_limits(directory, on_cells.get(), on_elements.get());

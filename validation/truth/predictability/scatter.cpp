@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
+#include <fstream>
 
 #include "predictability/checks.h"
 #include "predictability/ensemble.h"
 #include "predictability/support.h"
-#include "report/figures/gnuplot.h"
-#include "report/files.h"
 
 namespace subimpact::predictability {
 namespace {
@@ -111,9 +109,18 @@ void print_events(const Study& study) {
   }
 }
 
-// The share of the runs that are in contact, at equal times.
-std::string contact_table(const Study& study, double end) {
+// The share of the runs that are in contact, at equal times, the contacts of the strike as given,
+// and the horizon with the number of contacts up to it; times in ms.
+void write_rows(std::ofstream& csv, const Study& study) {
   constexpr int n = 4000;
+  const Predictability& p = *study.result.predictability;
+  const std::string title =
+      fmt::format("{} sections; {} runs, velocity, thickness and yield stress known to {:g} %",
+                  name_of(study.section), study.ensemble.runs.size(), 100.0 * study.scatter);
+  const auto write = [&](const char* what, double x, double y) {
+    csv << fmt::format("\"{}\",{},{:.6g},{:.6g}\n", title, what, x, y);
+  };
+  const double end = study.result.outcome.time;
   std::vector<int> steps(n + 1, 0);  // changes of the number in contact
   const auto index = [&](double t) {
     return static_cast<std::size_t>(std::clamp(t / end * n, 0.0, static_cast<double>(n)));
@@ -124,72 +131,27 @@ std::string contact_table(const Study& study, double end) {
       --steps[index(run.end_of(s))];
     }
   }
-  std::string text;
   int in_contact = 0;
   for (int i = 0; i < n; ++i) {
     in_contact += steps[static_cast<std::size_t>(i)];
-    text += fmt::format("{:.5g} {:.4g}\n", ms * end * i / n,
-                        100.0 * in_contact / static_cast<double>(study.ensemble.runs.size()));
+    write("share", ms * end * i / n,
+          100.0 * in_contact / static_cast<double>(study.ensemble.runs.size()));
   }
-  return text;
-}
-
-// Blue: the share of runs in contact. Black, above: the contacts of the strike as given.
-std::string panel(const Study& study, const std::string& name) {
-  const Predictability& p = *study.result.predictability;
-  const auto& contacts = study.result.sub_impacts;
-  std::string text = "unset object\nunset arrow\nunset label\n";
-  int number = 0;
-  for (const SubImpact& s : contacts) {
-    text += fmt::format(
-        "set object {} rectangle from first {:.6g}, graph 1.03 to first {:.6g}, graph 1.11 noclip "
-        "fillcolor rgb '#404040' fillstyle solid noborder\n",
-        ++number, ms * s.start, ms * study.result.end_of(s));
-  }
-  text += fmt::format(
-      "set arrow 1 from first {0:.6g}, graph 0 to first {0:.6g}, graph 1.14 nohead lt 2 lw 3 "
-      "front\n"
-      "set title '{6} sections; velocity, thickness and yield stress known to {1:g} %' offset "
-      "0,0.8\n"
-      "set label 1 'grey, above: contacts of the strike as given' at graph 0.26, graph 0.85\n"
-      "set label 2 'blue: share of {2} runs that are in contact' at graph 0.26, graph 0.71\n"
-      "set label 3 'orange: predictable one by one up to here, {3} of {4} contacts' at graph 0.26, "
-      "graph 0.57 tc lt 2\n"
-      "plot ${5} using 1:2 with filledcurves y1=0 lc rgb '#56B4E9' notitle\n",
-      ms * p.horizon, 100.0 * study.scatter, study.ensemble.runs.size(),
-      p.first_unpredictable.value_or(contacts.size()), contacts.size(), name,
-      name_of(study.section));
-  return text;
-}
-
-void draw(const std::vector<Study>& studies) {
-  std::string script(embedded_file("figures/style.gp"));
-  const double end = studies.front().result.outcome.time;
-  std::string panels;
-  for (std::size_t i = 0; i < studies.size(); ++i) {
-    const std::string name = fmt::format("contact{}", i);
-    script += fmt::format("${} << EOD\n{}EOD\n", name, contact_table(studies[i], end));
-    panels += panel(studies[i], name);
-  }
-  script += fmt::format(
-      "set xrange [0:{:g}]\nset yrange [0:100]\nset ylabel 'in contact, % of runs'\n"
-      "set xlabel 'time, ms'\nset multiplot layout {},1 spacing 0.1,0.07\n{}unset multiplot\n",
-      ms * end, studies.size(), panels);
-  const std::filesystem::path directory = SUBIMPACT_PREDICTABILITY;
-  draw_figure(directory, "scatter", script, {1100, 1150});
-  for (const char* other : {"scatter.gp", "scatter.svg", "scatter.pdf"}) {
-    std::filesystem::remove(directory / other);
-  }
+  const std::vector<SubImpact>& contacts = study.result.sub_impacts;
+  for (const SubImpact& s : contacts) write("contact", ms * s.start, ms * study.result.end_of(s));
+  write("horizon", ms * p.horizon,
+        static_cast<double>(p.first_unpredictable.value_or(contacts.size())));
 }
 
 }  // namespace
 
 bool check_scatter(Jobs jobs) {
   bool all = true;
-  std::vector<Study> drawn;
+  std::ofstream csv("scatter.csv");
+  csv << "title,what,x,y\n";
   for (const SectionKind section : {SectionKind::elastic, SectionKind::exact}) {
     for (const double deviation : {1e-2, 1e-3}) {
-      Study study = study_of(section, deviation, jobs);
+      const Study study = study_of(section, deviation, jobs);
       const Judged judged = judge(study);
       const Predictability& p = *study.result.predictability;
       fmt::print("\n### {} sections, {:g} %\n\n", name_of(section), 100.0 * deviation);
@@ -210,10 +172,9 @@ bool check_scatter(Jobs jobs) {
       print_events(study);
       std::fflush(stdout);
       all = all && judged.largest_off < 0.1 && judged.horizon <= judged.first_ending;
-      drawn.push_back(std::move(study));
+      write_rows(csv, study);
     }
   }
-  draw(drawn);
   fmt::print(
       "\nstandard deviations within 10 %, no horizon beyond a contact that changes in more than "
       "5 %: {}\n",

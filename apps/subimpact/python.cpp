@@ -1,0 +1,109 @@
+#include "python.h"
+
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <system_error>
+
+#include "commands.h"
+
+namespace subimpact::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* remedy =
+    "this command needs Python with NumPy, pandas, Matplotlib and the package subimpact (Debian: "
+    "apt-get install python3-pandas python3-matplotlib); SUBIMPACT_PYTHON_EXECUTABLE names another "
+    "interpreter";
+
+// Arguments: the remedy, the module and its own arguments. As `python -m`, but that modules in the
+// working directory are not taken for others, and that a missing one is no traceback.
+constexpr const char* start_module = R"(import runpy, sys
+remedy, *sys.argv = sys.argv[1:]
+sys.path = [place for place in sys.path if place]
+try:
+    runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
+except ModuleNotFoundError as error:
+    print(f"subimpact: {sys.executable}: {error}; {remedy}", file=sys.stderr)
+    sys.exit(2)
+)";
+
+std::string interpreter() {
+  const char* named = std::getenv("SUBIMPACT_PYTHON_EXECUTABLE");
+  return named != nullptr && *named != '\0' ? named : SUBIMPACT_PYTHON_EXECUTABLE;
+}
+
+// The first directory with the package: in the build tree, below the prefix; else empty.
+std::string package_directory() {
+  std::error_code error;
+  const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& place :
+       {bin.parent_path() / "python", bin.parent_path() / SUBIMPACT_PYTHON_DIR}) {
+    if (fs::exists(place / "subimpact" / "__init__.py", error)) return place.string();
+  }
+  return {};
+}
+
+std::vector<std::string> environment_with(const std::string& package) {
+  constexpr std::string_view path = "PYTHONPATH=";
+  std::vector<std::string> variables;
+  std::string others;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    if (text.starts_with(path)) {
+      others = text.substr(path.size());
+    } else {
+      variables.emplace_back(text);
+    }
+  }
+  const char* between = package.empty() || others.empty() ? "" : ":";
+  variables.push_back(std::string(path) + package + between + others);
+  return variables;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+constexpr int not_run = 127;
+
+// Waits for the end of a process. A terminal sends Ctrl-C to both; the child decides how to end.
+int status_of_ended(pid_t child) {
+  const auto of_parent = std::signal(SIGINT, SIG_IGN);
+  int state = 0;
+  while (waitpid(child, &state, 0) < 0 && errno == EINTR) {
+  }
+  std::signal(SIGINT, of_parent);
+  return WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
+}
+
+}  // namespace
+
+int run_python(const std::string& module, const std::vector<std::string>& arguments) {
+  const std::string python = interpreter();
+  std::vector<std::string> words = {python, "-c", start_module, remedy, module};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> variables = environment_with(package_directory());
+  const std::vector<char*> argv = pointers_to(words), environment = pointers_to(variables);
+  std::fflush(stdout);
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() == parent) execvpe(python.c_str(), argv.data(), environment.data());
+    _exit(not_run);
+  }
+  const int status = child < 0 ? not_run : status_of_ended(child);
+  if (status != not_run) return status;
+  print_error("subimpact: {}: cannot be run; {}\n", python, remedy);
+  return refused;
+}
+
+}  // namespace subimpact::app

@@ -1,0 +1,25 @@
+"""Figures for publication, by Matplotlib: of a run, of a sweep, of studies.
+
+    from subimpact import plot
+
+    plot.response(result)[0].figure.savefig("response.pdf")
+    plot.histogram(sweep.runs, axes, "max_force_N")
+
+A function takes what it draws and panels (axes, or a list of them), and returns the panels; without any
+it makes them, in the style of `style()`. It raises `Absent` where the results lack what it draws.
+`python -m subimpact.plot DIR`, or `subimpact plot DIR`, draws all that a directory holds.
+"""
+
+from .beam import bending, envelope, shapes, strikes
+from .directory import draw_directory, read_table, save
+from .run import energies, first_sub_impact, force, indentation, response, timeline
+from .studies import critical_steps, damping, layers, missed_pairs, outcomes, stiff_contact, work_precision
+from .style import Absent, figure, style
+from .sweeps import histogram, histograms, sweep_map
+
+__all__ = [
+    "Absent", "bending", "critical_steps", "damping", "draw_directory", "energies", "envelope", "figure",
+    "first_sub_impact", "force", "histogram", "histograms", "indentation", "layers", "missed_pairs", "outcomes",
+    "read_table", "response", "save", "shapes", "stiff_contact", "strikes", "style", "sweep_map", "timeline",
+    "work_precision",
+]

@@ -1,0 +1,61 @@
+"""The command `python -m subimpact.plot`, which `subimpact plot` runs."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+import matplotlib
+
+from .._errors import OutputError, ResultsError
+from .._text import printable
+from .directory import FORMATS, draw_directory
+
+
+def _say(text: str) -> None:
+    print(printable(text), file=sys.stderr)
+
+
+def _listed(text: str) -> list[str]:
+    return [part for part in text.split(",") if part]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command; returns its exit status."""
+    parser = argparse.ArgumentParser(prog="subimpact plot", description="Draws the figures of a run, a sweep or a study.")
+    parser.add_argument("directory", metavar="DIR", help="what subimpact run, work-precision or stability, or "
+                        "subimpact-sweep has written")
+    parser.add_argument("--out", metavar="DIR", help="directory for the figures; default: DIR/figures")
+    parser.add_argument("--format", type=_listed, default=FORMATS, metavar="svg,png,pdf", help="file formats; default: all")
+    parser.add_argument("--only", type=_listed, default=(), metavar="NAME,...", help="these figures; default: all")
+    options = parser.parse_args(arguments)
+    if unknown := set(options.format) - set(FORMATS):
+        parser.error(f"--format: {', '.join(sorted(unknown))}; allowed: {', '.join(FORMATS)}")
+    matplotlib.use("Agg")
+    try:
+        drawn = draw_directory(options.directory, options.out, options.format, options.only)
+    except (ResultsError, OutputError) as error:
+        _say(str(error))
+        return 2
+    except ValueError as error:
+        _say(f"subimpact: --only {error}")
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    for name, caption in drawn.captions.items():
+        print(", ".join(f"{name}.{ending}" for ending in options.format) + f"\n    {caption}")
+    if drawn.captions:
+        print(f"\nfigures in {printable(drawn.directory)}")
+    sys.stdout.flush()
+    for note in drawn.notes:
+        _say(f"subimpact: warning: {note}")
+    for reason in drawn.left_out:
+        _say(f"subimpact: note: not drawn: {reason}")
+    for failure in drawn.failed:
+        _say(failure)
+    return 3 if drawn.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,202 @@
+"""The figures of a directory: what it holds, drawn into files."""
+
+from __future__ import annotations
+
+import csv
+import functools
+import io
+import json
+import os
+import re
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from .. import _core
+from .._errors import OutputError, ResultsError
+from .._text import path_text
+from ..result import read_results
+from . import beam, run, studies, sweeps
+from .style import Absent, style
+
+FORMATS = ("svg", "png", "pdf")
+LIST = "figures.json"
+
+_METADATA: dict[str, dict[str, None]] = {"svg": {"Date": None}, "png": {"Software": None}, "pdf": {"CreationDate": None}}
+_ROOT_STYLE = "stroke-linejoin: round; stroke-linecap: butt; font-family: DejaVu Sans, Arial, Helvetica, sans-serif"
+_OF_STABILITY = ("critical_steps", "stiff_contact", "outcomes", "missed_pairs", "layers")
+_OF_RUN: dict[str, Callable[..., Any]] = {
+    "response": run.response,
+    "first-sub-impact": run.first_sub_impact,
+    "indentation": run.indentation,
+    "energies": run.energies,
+    "timeline": run.timeline,
+    "bending": beam.bending,
+    "shapes": beam.shapes,
+    "envelope": beam.envelope,
+}
+
+
+class Figure(NamedTuple):
+    """A figure that can be drawn."""
+
+    draw: Callable[[], Any]
+    caption: str
+
+
+class Drawn(NamedTuple):
+    """What came of the figures of a directory."""
+
+    directory: str
+    captions: dict[str, str]  #: of the figures drawn now, by their names
+    left_out: list[str]  #: with their reasons
+    failed: list[str]
+    notes: list[str]  #: messages for the user
+
+
+def read_table(file: str | os.PathLike[str]) -> dict[str, Any]:
+    """The columns of a CSV file with a heading: arrays of numbers, NaN in empty cells, or of texts.
+    Raises ResultsError."""
+    try:
+        with open(file, encoding="utf-8", newline="") as text:
+            heading, *rows = csv.reader(text, strict=True)
+        columns = [np.array(cells) for cells in zip(*rows, strict=False)] or [np.array([])] * len(heading)
+    except (OSError, ValueError, csv.Error) as error:
+        raise ResultsError(f"{os.fspath(file)}: cannot be read ({error})") from None
+    if any(len(row) != len(heading) for row in rows) or not rows:
+        raise ResultsError(f"{os.fspath(file)}: is no table with rows of {len(heading)} cells")
+    return {name: _numbers(cells) for name, cells in zip(heading, columns)}
+
+
+def _numbers(cells: Any) -> Any:
+    try:
+        return np.where(cells == "", "nan", cells).astype(float)
+    except ValueError:
+        return cells
+
+
+def _figure(draw: Callable[..., Any], *sources: Any, **named: Any) -> Figure:
+    return Figure(functools.partial(draw, *sources, **named), " ".join((draw.__doc__ or "").split()))
+
+
+def figures_of(directory: Path) -> dict[str, Figure]:
+    """The figures of a run, a sweep or a study, by their names. Raises ResultsError."""
+
+    def table(name: str) -> dict[str, Any]:
+        return read_table(directory / f"{name}.csv")
+
+    def has(name: str) -> bool:
+        return (directory / name).exists()
+
+    if has("runs.csv") and not has("summary.json"):
+        runs = table("runs")
+        return {name: _figure(getattr(sweeps, name), runs) for name in ("sweep_map", "histograms")}
+    if has("work_precision.csv"):
+        points = table("work_precision")
+        return {"work_precision": _figure(studies.work_precision, points),
+                "work_precision_evaluations": _figure(studies.work_precision, points, cost="right_hand_sides")}
+    figures = {name: _figure(getattr(studies, name), table(name)) for name in _OF_STABILITY if has(f"{name}.csv")}
+    if has("damping.csv") and has("bdf_growth.csv"):
+        figures["damping"] = _figure(studies.damping, (table("damping"), table("bdf_growth")))
+    if figures:
+        return figures
+    result = read_results(directory)
+    figures = {name: _figure(draw, result) for name, draw in _OF_RUN.items()}
+    if len(result.strikes):
+        figures["strikes"] = _figure(beam.strikes, result)
+    return figures
+
+
+def save(axes: Any, path: str | os.PathLike[str], formats: Sequence[str] = FORMATS) -> None:
+    """Writes the figure of these axes as path.svg, path.png and path.pdf, alike whenever it is drawn, and
+    closes it."""
+    made = np.ravel(axes)[0].figure
+    try:
+        with style():
+            made.draw_without_rendering()
+            made.set_layout_engine("none")  # as it is now, in every format
+            for ending in formats:
+                content = io.BytesIO()
+                made.savefig(content, format=ending, metadata=_METADATA[ending])
+                data = content.getvalue()
+                Path(f"{os.fspath(path)}.{ending}").write_bytes(_compact(data.decode()).encode() if ending == "svg" else data)
+    finally:
+        plt.close(made)
+
+
+def _compact(svg: str) -> str:
+    """An SVG file of Matplotlib with hundredths of a point, and no names that nothing refers to."""
+
+    def short(attribute: re.Match[str]) -> str:
+        numbers = re.sub(r"-?\d+\.\d+", lambda number: f"{float(number[0]):.2f}".rstrip("0").rstrip("."), attribute[0])
+        return re.sub(r"\s*([MLQCz])\s*", r"\1", numbers)
+
+    svg = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", svg, flags=re.DOTALL)
+    svg = re.sub(r'<g id="[^"]*"', "<g", svg)
+    svg = re.sub(r'\b(?:d|x|y|transform)="[^"]*"', short, svg)
+    svg = re.sub(r"font: ([\d.]+px) '[^;\"]*", r"font-size: \1", svg)
+    svg = svg.replace("<svg ", f'<svg style="{_ROOT_STYLE}" ', 1)
+    svg = re.sub(r"\s*\n\s*", "\n", svg)
+    for _ in range(4):  # groups in each other that mean nothing
+        svg = re.sub(r"<g>\n((?:(?!</?g\b).*\n)*?)</g>\n", r"\1", svg)
+    alike = r'<g((?: clip-path="[^"]*")?)>\n((?:<use [^>]*? style="([^"]*)"/>\n)(?:<use [^>]*? style="\3"/>\n)*)</g>'
+    return re.sub(alike, lambda marks: f'<g{marks[1]} style="{marks[3]}">\n'
+                  + marks[2].replace(f' style="{marks[3]}"', "") + "</g>", svg)
+
+
+def _identity(directory: Path) -> str:
+    try:
+        return str(json.loads((directory / "manifest.json").read_text(encoding="utf-8"))["identity"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return ""
+
+
+def _earlier(directory: Path) -> dict[str, str]:
+    """The captions of figures that were drawn before."""
+    try:
+        drawn = json.loads((directory / LIST).read_text(encoding="utf-8"))["figures"]
+        return {figure["name"]: figure["caption"] for figure in drawn}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+
+
+def draw_directory(directory: str | os.PathLike[str], out: str | os.PathLike[str] | None = None,
+                   formats: Sequence[str] = FORMATS, only: Sequence[str] = ()) -> Drawn:
+    """Draws the figures of a run, a sweep or a study into the directory `out`, by default the folder
+    `figures` in it, with their captions in figures.json; figures of other results that were drawn there
+    are removed. Raises ResultsError for a directory that holds neither, ValueError for a figure that it
+    has not, OutputError."""
+    source = Path(path_text(directory, ResultsError))
+    figures = figures_of(source)
+    if unknown := [name for name in only if name not in figures]:
+        raise ValueError(f"{', '.join(unknown)}: no figure of {source}; allowed: {', '.join(figures)}")
+    target = Path(path_text(out if out is not None else source / "figures", OutputError))
+    identity = _identity(source)
+    output = _core.OutputDirectory(str(target), "figures", 0.0, identity)
+    try:
+        known = _earlier(target) if identity and identity == _identity(target) else {}
+        captions: dict[str, str] = {}
+        left_out: list[str] = []
+        failed: list[str] = []
+        for name in only or figures:
+            try:
+                save(figures[name].draw(), Path(output.staging) / name, formats)
+                captions[name] = figures[name].caption
+            except Absent as reason:
+                left_out.append(f"{name}: {reason}")
+            except Exception as error:  # the others are drawn all the same
+                for file in Path(output.staging).glob(f"{name}.*"):
+                    file.unlink()
+                what = f"cannot be written ({error.strerror})" if isinstance(error, OSError) else f"cannot be drawn ({error!r})"
+                failed.append(f"{name}: {what}")
+        known.update(captions)
+        listed = [{"name": name, "caption": known[name]} for name in figures if name in known]
+        text = json.dumps({"figures": listed, "left_out": left_out, "failed": failed}, indent=1, ensure_ascii=False)
+        (Path(output.staging) / LIST).write_text(text + "\n", encoding="utf-8")
+        output.commit()
+        return Drawn(str(target), captions, left_out, failed, output.notes)
+    finally:
+        output.close()
