@@ -11,7 +11,6 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
-#include "subimpact/study/overlay.h"
 #include "subimpact/study/forecast.h"
 #include "subimpact/study/sensitivity/sensitivity.h"
 
@@ -75,11 +74,6 @@ std::vector<Answer> answers(const Case& input, const Result& result);
 
 /// Numbers of the strike as a whole over the samples of a case with scatter: "scatter: force".
 std::vector<Answer> scatter_answers(const Result& result);
-
-/// How much a measured force and the computed one differ: shift, filter, peak and impulse.
-std::vector<Answer> answers(const Overlay& overlay);
-/// Why the overlay may mean nothing; empty if no reason was found.
-std::string overlay_doubt(const Overlay& overlay);
 
 /// The title, the answers and the warnings, one line each, wrapped at 100 columns. `verbose` adds
 /// mesh, method, errors by source, conservation and work.

@@ -1,0 +1,69 @@
+"""What is drawn of a measured force beside the computed one, in figures and on the page."""
+
+from __future__ import annotations
+
+import base64
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..plot.style import COLOURS, GREY, figure, legend_above, unit
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from .aligning import Alignment
+
+    Numbers = npt.NDArray[np.float64]
+
+_MOST_ROWS = 22_000  # of a chart of the page
+_MOST_DRAWN = 600  # samples of a line
+
+
+def thinned(times: Numbers, forces: Numbers, most: int) -> tuple[Numbers, Numbers]:
+    """At most so many samples, with the largest and the smallest of each span."""
+    span = -(-2 * len(times) // most)
+    if span <= 2:
+        return times, forces
+    n = len(times) // span * span
+    spans = forces[:n].reshape(-1, span)
+    kept = np.unique(np.r_[0, (np.arange(len(spans))[:, None] * span + np.stack(
+        [spans.argmin(1), spans.argmax(1)], axis=1)).ravel(), len(times) - 1])
+    return times[kept], forces[kept]
+
+
+def packed(times: Numbers, forces: Numbers) -> dict[str, dict[str, str]]:
+    """A force as the page reads it."""
+    times, forces = thinned(times, forces, _MOST_ROWS)
+    return {"time_s": {"f64": base64.b64encode(times.astype("<f8").tobytes()).decode()},
+            "force_N": {"f32": base64.b64encode(forces.astype("<f4").tobytes()).decode()}}
+
+
+def _line(axes: Any, times: Numbers, forces: Numbers, begin: float, end: float, largest: float, **options: Any) -> None:
+    """Of the time from begin to end, in units that suit the end and the largest force."""
+    (time, per_second), (force, per_newton) = unit("time", end), unit("force", largest)
+    inside = (times >= begin) & (times <= end)
+    axes.plot(*thinned(per_second * times[inside], per_newton * forces[inside], _MOST_DRAWN), **options)
+    axes.set(xlim=(per_second * begin, per_second * end), xlabel=f"time of the run, {time}", ylabel=f"force, {force}")
+
+
+@figure("a", height=3.2)
+def draw_forces(a: Alignment, axes: Any, begin: float | None = None, end: float | None = None, **options: Any) -> None:
+    """The measured force and the computed one on the time of the run."""
+    part = (a.begin if begin is None else begin, a.end if end is None else end, max(a.computed.peak, a.measured.peak))
+    label = "computed" if a.low_pass is None else "computed, as the transducer shows it"
+    _line(axes, a.measured.times, a.measured.forces, *part, color=COLOURS[1], label="measured", **options)
+    _line(axes, a.computed.times, a.computed.forces, *part, color=COLOURS[0], label=label)
+    legend_above(axes)
+
+
+@figure([["forces"], ["difference"], ["near"]], height=7.4, height_ratios=[2, 1, 2])
+def draw_all(a: Alignment, axes: Any) -> None:
+    """The measured force and the computed one on the time of the run, their difference (computed less measured), and both
+    about the largest force."""
+    draw_forces(a, axes[0])
+    _line(axes[1], *a.difference, a.begin, a.end, float(np.abs(a.difference[1]).max()), color=GREY)
+    axes[1].set_ylabel("difference" + axes[1].get_ylabel().removeprefix("force"))
+    half, peak = 0.03 * (a.end - a.begin), a.measured.peak_time
+    draw_forces(a, axes[2], max(a.begin, peak - half), min(a.end, peak + half), marker=".", markersize=3)
+    axes[2].get_legend().remove()
