@@ -116,6 +116,7 @@ std::string contact_words(const Case& input) {
   if (input.parts.contact_law) return {};
   const BuiltInContactLaw& law = built_in_contact_law(scene.contact.kind);
   if (!scene.striker.nose_radius || !uses_key(constants_given(input, law), "striker.nose_radius")) {
+    if (law.kind == ContactKind::curve) return "contact as measured, law curve";
     return fmt::format("contact of given stiffness, law {}", law.name);
   }
   return fmt::format("{} nose of {:.4g} mm, law {}",

@@ -5,6 +5,7 @@
 #include <ranges>
 #include <string_view>
 
+#include "case/keys/materials.h"
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/settings/methods.h"
@@ -144,7 +145,9 @@ std::string setting_text(const Case& input, std::string_view name) {
 std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys& given) {
   std::vector<std::string> notes;
   for (const CaseKey& key : case_keys()) {
-    const char* reason = given.contain(key.name) ? reason_of(key, input) : nullptr;
+    const bool is_of_material = input.scene.beam.material && is_value_of_material(key.name);
+    const bool is_asked = given.contain(key.name) && !is_of_material;
+    const char* reason = is_asked ? reason_of(key, input) : nullptr;
     if (reason == nullptr) continue;
     if (!given.in_settings.contains(key.name) && given.in_settings.contains(reason)) continue;
     notes.push_back(fmt::format("{} has no effect with {}", setting_text(input, key.name),

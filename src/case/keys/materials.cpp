@@ -28,4 +28,9 @@ const Material* find_material(std::string_view name) {
   return found == materials().end() ? nullptr : &*found;
 }
 
+bool is_value_of_material(std::string_view key) {
+  return std::ranges::any_of(material_values,
+                             [&](const MaterialValue& value) { return value.key == key; });
+}
+
 }  // namespace subimpact

@@ -33,4 +33,6 @@ inline constexpr MaterialValue material_values[] = {
     {"beam.poisson", &Material::poisson},
     {"beam.yield_stress", &Material::yield_stress}};
 
+bool is_value_of_material(std::string_view key);
+
 }  // namespace subimpact

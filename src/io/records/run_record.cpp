@@ -115,8 +115,7 @@ const Record<Predictability::Zone> zone_scatter_record = {
 
 const Record<Predictability::Sampled> sampled_record = {
     {"name", "of its column in strikes.csv", &Predictability::Sampled::name},
-    {"mean", "of the samples", &Predictability::Sampled::mean},
-    {"standard_deviation", "", &Predictability::Sampled::deviation},
+    {"mean", "of the samples", &Predictability::Sampled::mean}, {"standard_deviation", "", &Predictability::Sampled::deviation},
     {"quantile_5", "below which a twentieth of the samples lies", &Predictability::Sampled::quantile_5},
     {"quantile_95", "above which a twentieth lies", &Predictability::Sampled::quantile_95}};
 
@@ -127,8 +126,7 @@ const Record<Predictability> predictability_record = {
     {"max_time_scatter_s", "largest standard deviation up to the horizon", &Predictability::largest_scatter, Form::finite},
     {"zones", "", &Predictability::zones, zone_scatter_record},
     {"striker_velocity_scatter_m_per_s", "standard deviation of the velocity at the end", &Predictability::striker_velocity_scatter},
-    {"samples", "of the numbers that scatter; each is a run", &Predictability::n_samples},
-    {"samples_mesh", "of these runs", &Predictability::samples_mesh},
+    {"samples", "of the numbers that scatter; each is a run", &Predictability::n_samples}, {"samples_mesh", "of these runs", &Predictability::samples_mesh},
     {"totals", "over the samples", &Predictability::totals, sampled_record}};
 
 const Record<StrikeFigures> figures_record = {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "model/contact/contact_geometry.h"
-#include "model/contact/mean_pressure.h"
+#include "model/contact/curves/mean_pressure.h"
 #include "subimpact/model/contact/contact_law.h"
 #include "subimpact/model/scene.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "model/contact/mean_pressure.h"
+#include "model/contact/curves/mean_pressure.h"
 #include "subimpact/model/contact/contact_law.h"
 
 namespace subimpact {

@@ -404,8 +404,7 @@ void Recorder::add_section_rows(double time, const State& y, Accounts& accounts)
   const Accounts::Bending bending = accounts.bending(y);
   const StruckBeam& beam = accounts.beam();
   for (const std::size_t section : sections_) {
-    const double kappa = bending.curvatures[section];
-    const double moment = bending.moments[section];
+    const double kappa = bending.curvatures[section], moment = bending.moments[section];
     rows_.add(SectionRow{time, beam.mesh().section_positions()[section], kappa, moment,
                          plastic_curvature(kappa, moment, beam.sections().stiffness()),
                          -half_height_ * kappa});

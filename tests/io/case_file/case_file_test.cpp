@@ -178,9 +178,16 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
   contact.kind = ContactKind::line;
   contact.pressure_by_depth = true;
   contact.indentation = IndentationFrom::mid_plane;
+  Case curved = foundation;
+  Contact& measured = curved.scene.contact;
+  measured.kind = ContactKind::curve;
+  measured.curve_indentation = {2e-5, 1e-4};
+  measured.curve_force = {100.0, 1000.0};
+  measured.unloading_indentation = {3e-5, 1e-4};
+  measured.unloading_force = {0.0, 1000.0};
   std::set<std::string> covered;
   for (const Case& original :
-       {foundation, linear, sphere, sheared, box, tube, beam_i, yielding, line}) {
+       {foundation, linear, sphere, sheared, box, tube, beam_i, yielding, line, curved}) {
     std::vector<Override> all;
     for (const CaseKey& key : case_keys()) {
       const std::optional<KeyValue> value = key.get(original);

@@ -1,4 +1,4 @@
-#include "model/contact/monotone_curve.h"
+#include "model/contact/curves/monotone_curve.h"
 
 #include <algorithm>
 #include <cmath>

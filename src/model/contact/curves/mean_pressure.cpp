@@ -1,4 +1,4 @@
-#include "model/contact/mean_pressure.h"
+#include "model/contact/curves/mean_pressure.h"
 
 #include <cmath>
 #include <numbers>
