@@ -1,0 +1,313 @@
+"""A measured force and the computed one of a run, on one time axis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal, Union
+
+import numpy as np
+
+from .._errors import ResultsError
+from ..result import Result
+from .reading import Signal
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Numbers = npt.NDArray[np.float64]
+
+Found = Union[float, Literal["find"], None]
+_LIKE_EACH_OTHER = 0.9  # correlation of two forces of the same strike
+_IN_CONTACT = 0.05  # of the largest force
+_OCTAVE = np.log(2.0)
+#: Standard errors in an error that is stated.
+N_ERRORS = 3.0
+
+
+def low_passed(times: Numbers, forces: Numbers, cutoff: float) -> Numbers:
+    """The signal of a transducer with a Butterworth low-pass of fourth order, for a force that is
+    zero before the first sample:
+
+        H(s) = product over k = 0..3 of -p_k / (s - p_k),  p_k = 2 pi f exp(i pi (5 + 2 k)/8),
+
+    with `cutoff` f in Hz, where the loss is 3 dB. At the samples the result is exact for the
+    piecewise linear force, however far apart they are; low frequencies are delayed by 2.61/(2 pi f).
+    """
+    poles = 2 * np.pi * cutoff * np.exp(1j * np.pi * (5 + 2 * np.arange(4)) / 8)
+    steps = np.diff(times)
+    slopes = np.divide(np.diff(forces), steps, out=np.zeros_like(steps), where=steps > 0)
+    filtered = np.zeros(len(times))
+    for p in poles[:2]:  # the other pair is conjugate
+        residue = -p * np.prod([q / (q - p) for q in poles if q != p])
+        growth = np.exp(p * steps)
+        phi = (growth - 1) / p
+        state = forces[:-1] * phi + slopes * (phi - steps) / p
+        distance = 1
+        while distance < len(state):  # y_i = growth_i y_(i-1) + state_i, for twice as many at a time
+            state[distance:] += growth[distance:] * state[:-distance]
+            growth[distance:] *= growth[:-distance]
+            distance *= 2
+        filtered[1:] += 2 * (residue * state).real
+    return filtered
+
+
+def covariance_of(jacobian: Numbers, residuals: Numbers) -> Numbers:
+    """That of parameters by least squares. Residuals that resemble their neighbours tell less than
+    white noise: their autocorrelation widens the errors, and never narrows them."""
+    from scipy.signal import correlate, fftconvolve
+
+    n, k = jacobian.shape
+    inverse = np.linalg.pinv(jacobian.T @ jacobian)
+    white = inverse * (residuals @ residuals / max(n - k, 1))
+    lags = min(int(np.sqrt(n)), n - 1)
+    products = correlate(residuals, residuals, "full", "fft")[n - 1 - lags : n + lags] / n
+    taper = products * (1 - np.abs(np.arange(-lags, lags + 1)) / (lags + 1))
+    coloured = inverse @ (jacobian.T @ fftconvolve(jacobian, taper[:, None], "same", axes=0)) @ inverse
+    with np.errstate(invalid="ignore", divide="ignore"):
+        widening = np.sqrt(np.fmax(np.diag(coloured) / np.diag(white), 1.0))
+    return white * np.outer(widening, widening)
+
+
+def correlation(one: Numbers, other: Numbers) -> float:
+    """1 if they differ only by a factor."""
+    size = float(np.sqrt((one @ one) * (other @ other)))
+    return float(one @ other) / size if size > 0.0 else 0.0
+
+
+class _Curve:
+    """A force, linear between its samples and zero before them."""
+
+    def __init__(self, times: Numbers, forces: Numbers) -> None:
+        self.times, self.forces = times, forces
+        pieces = 0.5 * np.diff(times) * (forces[1:] + forces[:-1])
+        self._integrals = np.r_[0.0, np.cumsum(pieces)]
+
+    def at(self, times: Numbers) -> Numbers:
+        return np.interp(times, self.times, self.forces, left=0.0)
+
+    def means(self, width: float) -> Numbers:
+        """Over bins from the first sample on."""
+        edges = self.times[0] + width * np.arange(int((self.times[-1] - self.times[0]) / width) + 1)
+        k = np.clip(np.searchsorted(self.times, edges, "right") - 1, 0, len(self.times) - 1)
+        parts = 0.5 * (edges - self.times[k]) * (self.forces[k] + self.at(edges))
+        return np.diff(self._integrals[k] + parts) / width
+
+    def within(self, begin: float, end: float) -> tuple[Numbers, Numbers]:
+        inside = (self.times > begin) & (self.times < end)
+        return (np.r_[begin, self.times[inside], end],
+                np.r_[self.at(np.array([begin])), self.forces[inside], self.at(np.array([end]))])
+
+
+@dataclass(frozen=True)
+class Side:
+    """One of the two forces on the time of the run."""
+
+    times: Numbers  #: s
+    forces: Numbers  #: N; the computed one as filtered, the measured one divided by the gain
+    peak: float  #: N, the largest in the time that both cover
+    peak_time: float  #: s
+    impulse: float  #: N s, in that time
+    contact: float  #: s, how long in that time the force is above 5 % of its largest value
+
+
+def _side(curve: _Curve, begin: float, end: float) -> Side:
+    times, forces = curve.within(begin, end)
+    top = int(np.argmax(forces))
+    steps, limit = np.diff(times), _IN_CONTACT * forces[top]
+    low, high = np.minimum(forces[1:], forces[:-1]), np.maximum(forces[1:], forces[:-1])
+    share = np.clip((high - limit) / np.where(high > low, high - low, 1.0), 0.0, 1.0)
+    above = np.where(low >= limit, 1.0, np.where(high <= limit, 0.0, share))
+    return Side(curve.times, curve.forces, float(forces[top]), float(times[top]),
+                float(np.sum(0.5 * steps * (forces[1:] + forces[:-1]))), float(above @ steps))
+
+
+@dataclass(frozen=True, repr=False)
+class Alignment:
+    """A measured force and the computed one on the time of the run. Errors are three standard
+    errors; None: given, not found."""
+
+    shift: float  #: s, by which the measured time is later than that of the run
+    shift_error: float | None
+    low_pass: float | None  #: Hz, of the filter of the computed force; None: no filter
+    low_pass_error: float | None
+    gain: float  #: measured over true force
+    gain_error: float | None
+    correlation: float  #: of both forces in the time they both cover; 1 if they differ by a factor
+    interval: float  #: s, between measured samples
+    begin: float  #: s, of the time that both cover
+    end: float  #: s
+    computed: Side
+    measured: Side
+    difference: tuple[Numbers, Numbers]  #: times and forces, computed less measured
+    at_bound: bool  #: whether the cut-off found is at an end of the searched range
+
+    @property
+    def doubt(self) -> str:
+        """Why the comparison may mean nothing; "" if no reason was found."""
+        if self.correlation < _LIKE_EACH_OTHER:
+            return (f"the two forces have a correlation of {self.correlation:.2f}, and two of the same strike more than "
+                    f"{_LIKE_EACH_OTHER}: the case is not that of the measurement, or the shift or the filter is wrong")
+        if self.at_bound:
+            return ("the cut-off found is at an end of the searched range: the measurement shows no low-pass filter of fourth "
+                    "order between two periods in the record and half of the sampling rate")
+        return ""
+
+    def answers(self) -> list[dict[str, str]]:
+        """Names, values and notes, in words."""
+        from .drawing import answers_of
+
+        return answers_of(self)
+
+    def __repr__(self) -> str:
+        lines = [f"{answer['name']:<14}  {answer['value']}  ({answer['note']})" for answer in self.answers()]
+        return "\n".join(lines + ([f"warning: {self.doubt}"] if self.doubt else []))
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws both forces over the time of the run; returns the axes of Matplotlib."""
+        from .drawing import draw_forces
+
+        return draw_forces(self, axes)
+
+
+def curve_of(result: Result, cutoff: float | None = None) -> _Curve:
+    """The force of a run, and as a transducer shows it."""
+    if len(result.history) < 2:
+        raise ResultsError("the run kept no history; run it again with output.interval above 0")
+    times, forces = (np.ascontiguousarray(result.history[name]) for name in ("time_s", "force_N"))
+    return _Curve(times, forces if cutoff is None else low_passed(times, forces, cutoff))
+
+
+class _Search:
+    """Looks for the shift, and the cut-off, at which a measured force resembles a computed one."""
+
+    def __init__(self, computed: _Curve, measured: Signal, shift: float | None) -> None:
+        self.raw, self.measured, self.given = computed, measured, shift
+        self.duration = float(computed.times[-1] - computed.times[0])
+        record = float(measured.times[-1] - measured.times[0])
+        self.width = max(measured.interval, self.duration / 2**15, record / 2**19)
+        self._bins = _Curve(measured.times, measured.forces).means(self.width)
+        self.bounds = np.log([2.0 / min(self.duration, record), 0.5 / measured.interval])
+
+    @cached_property
+    def _samples(self) -> slice:
+        """Those about the run at the best guess: near a solution they must not change."""
+        margin = max(8 * self.measured.interval, 2 * self.width)
+        begin, end = self.guess + self.raw.times[0] - 0.1 * self.duration, self.guess + self.raw.times[-1]
+        first, last = np.searchsorted(self.measured.times, [begin, end - (0.0 if self.given is not None else margin)])
+        return slice(int(first), int(last))
+
+    def filtered(self, x: float | None) -> _Curve:
+        return self.raw if x is None else _Curve(self.raw.times, low_passed(self.raw.times, self.raw.forces, float(np.exp(x))))
+
+    def coarse(self, curve: _Curve) -> tuple[float, float]:
+        """The correlation at the best shift, or at the one given, and that shift."""
+        from scipy.signal import correlate
+
+        shift = self.given
+        if shift is None:
+            bins = curve.means(self.width)
+            lag = int(np.argmax(correlate(self._bins, bins, "full", "fft"))) - len(bins) + 1
+            shift = float(self.measured.times[0] - curve.times[0] + self.width * lag)
+        times = self.measured.times - shift
+        n = int(np.searchsorted(times, curve.times[-1], "right"))
+        return correlation(curve.at(times[:n]), self.measured.forces[:n]), shift
+
+    def solve(self, low_pass: Found) -> tuple[float, float | None, Numbers, _Curve]:
+        """Shift, logarithm of the cut-off, their variances with that of the gain, the computed force."""
+        from scipy.optimize import least_squares
+
+        find = low_pass == "find"
+        x = None if low_pass is None else float(np.log(float(low_pass))) if not find else None
+        if find:
+            grid = np.arange(self.bounds[1], self.bounds[0], -_OCTAVE / 3)
+            x = float(max(grid, key=lambda x: self.coarse(self.filtered(x))[0]))
+        self.guess = self.coarse(self.filtered(x))[1]
+        times, forces = self.measured.times[self._samples], self.measured.forces[self._samples]
+        free = [self.given is None, find, True]
+        unit = np.array([self.measured.interval, 1.0, 1.0])
+        start = np.array([self.guess, x or 0.0, 1.0])
+        step, ratio = 0.5 * self.measured.interval, 1e-3
+
+        def whole(free_values: Numbers) -> Numbers:
+            values = start.copy()
+            values[free] = free_values * unit[free]
+            return values
+
+        def residuals(free_values: Numbers) -> Numbers:
+            shift, y, gain = whole(free_values)
+            return gain * self.filtered(y if low_pass is not None else None).at(times - shift) - forces
+
+        def jacobian(free_values: Numbers) -> Numbers:
+            shift, y, gain = whole(free_values)
+            curve, at = self.filtered(y if low_pass is not None else None), times - shift
+            columns = [gain * (curve.at(at - step) - curve.at(at + step)) / (2 * step) * unit[0],
+                       gain * (self.filtered(y + ratio).at(at) - self.filtered(y - ratio).at(at)) / (2 * ratio) if find else at,
+                       curve.at(at)]
+            return np.stack([column for column, is_free in zip(columns, free) if is_free], axis=1)
+
+        shape = self.filtered(x).at(times - self.guess)
+        start[2] = float(shape @ forces) / (float(shape @ shape) or 1.0)
+        lower = np.array([-np.inf, self.bounds[0], -np.inf])
+        upper = np.array([np.inf, self.bounds[1], np.inf])
+        first = np.clip(start / unit, lower + 1e-6, upper - 1e-6)
+        found = least_squares(residuals, first[free], jac=jacobian, bounds=(lower[free], upper[free]), x_scale="jac", xtol=1e-12)
+        variances = np.full(3, np.nan)
+        variances[free] = np.diag(covariance_of(found.jac, found.fun)) * unit[free] ** 2
+        shift, y, self.gain = whole(found.x)
+        x = float(y) if low_pass is not None else None
+        return float(shift), x, variances, self.filtered(x)
+
+
+def _check_pushes(forces: Numbers, whose: str, remedy: str) -> None:
+    low, high = float(np.min(forces, initial=0.0)), float(np.max(forces, initial=0.0))
+    if not high > 0.0 or high < -low:
+        raise ResultsError(f"the {whose} force lies between {low:.4g} and {high:.4g} N; {remedy}")
+
+
+def align(result: Result, signal: Signal, shift: float | None = None, gain: float | Literal["find"] = 1.0,
+          low_pass: Found = None) -> Alignment:
+    """Compares a measured force with the history of a run, whose force is zero before it begins.
+
+    shift     s, by which the measured time is later than that of the run; None: it is found, where
+              the two forces differ least
+    gain      measured over true force; "find": by least squares
+    low_pass  Hz, the cut-off of the transducer, by which the computed force is filtered: `low_passed`;
+              "find": that with which the forces differ least, between two periods within the record
+              and half of the sampling rate
+
+    Raises ResultsError if there is no common time, the run has no history or no force.
+    """
+    raw = curve_of(result)
+    _check_pushes(raw.forces, "computed", "a run without contact has no force to compare with a measurement")
+    _check_pushes(signal.forces, "measured", "contact pushes, and its force is positive here: read it with sign=-1")
+    search = _Search(raw, signal, shift)
+    if shift is not None:
+        _check_common(shift, signal, raw)
+    found_shift, x, variances, computed = search.solve(low_pass)
+    begin, end = _check_common(found_shift, signal, raw)
+    factor = float(search.gain) if gain == "find" else float(gain)
+    times, forces = signal.times - found_shift, signal.forces / factor
+    inside = (times >= begin) & (times <= end)
+    here = computed.at(times[inside])
+    errors = [N_ERRORS * float(np.sqrt(variance)) if variance >= 0.0 else None for variance in variances]
+    cutoff = float(np.exp(x)) if x is not None else None
+    return Alignment(
+        shift=found_shift, shift_error=errors[0],
+        low_pass=cutoff, low_pass_error=errors[1] * cutoff if cutoff and errors[1] is not None else None,
+        gain=factor, gain_error=errors[2] if gain == "find" else None,
+        correlation=correlation(here, forces[inside]), interval=signal.interval, begin=begin, end=end,
+        computed=_side(computed, begin, end), measured=_side(_Curve(times, forces), begin, end),
+        difference=(times[inside], here - forces[inside]),
+        at_bound=low_pass == "find" and x is not None and float(np.min(np.abs(search.bounds - x))) < 1e-2)
+
+
+def _check_common(shift: float, signal: Signal, run: _Curve) -> tuple[float, float]:
+    """The time of the run that both cover."""
+    begin = max(float(signal.times[0]) - shift, float(run.times[0]))
+    end = min(float(signal.times[-1]) - shift, float(run.times[-1]))
+    if not begin < end:
+        raise ResultsError(
+            f"with a shift of {shift:.6g} s the measurement, from {signal.times[0]:.6g} to {signal.times[-1]:.6g} s, and the "
+            f"run, from 0 to {run.times[-1]:.6g} s, have no time in common; leave the shift out, or change it")
+    return begin, end

@@ -1,0 +1,210 @@
+"""Keys of a case fitted to a measured force."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._errors import CaseError, ResultsError
+from ..case import Case, as_case, keys as all_keys
+from ..result import Result
+from ..running import run
+from .aligning import Alignment, align, covariance_of, curve_of
+from .reading import Signal
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Numbers = npt.NDArray[np.float64]
+
+#: Where what the fit changes begins: the first step of the solver is about as large.
+_BEGIN = 0.1
+_STEP = 1e-3  # of a key, for derivatives; the tolerance of a run is far below
+
+
+@dataclass(frozen=True, repr=False)
+class Fit:
+    """Keys of a case with which a run gives the measured force."""
+
+    keys: tuple[str, ...]
+    values: Numbers  #: in SI units, as `case` has them
+    errors: Numbers  #: standard errors
+    correlation: Numbers  #: of the keys: a row and a column per key
+    alignment: Alignment  #: the measured force beside that of the fitted case
+    case: Case  #: the fitted one
+    n_runs: int
+
+    def __repr__(self) -> str:
+        from .drawing import rounded
+
+        lines = []
+        for key, value, error, others in zip(self.keys, self.values, self.errors, self.correlation):
+            scale = 10.0 ** (3 * math.floor(math.log10(abs(value)) / 3)) if value else 1.0
+            power = "" if scale == 1.0 else f"e{round(math.log10(scale)):+d}"
+            text = rounded(value / scale, error / scale, "").strip().replace(" +-", f"{power} +-") + power
+            related = " ".join(f"{other:+.2f}" for other in others)
+            lines.append(f"{key:<24}  {text} {all_keys()[key].unit} (standard error); correlation {related}")
+        return "\n".join([*lines, f"after {self.n_runs} runs", repr(self.alignment)])
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws both forces over the time of the run; returns the axes of Matplotlib."""
+        return self.alignment.plot(axes)
+
+
+def _range(key: str) -> tuple[float, float]:
+    """The values that a key allows."""
+    words = all_keys()[key].allowed
+    if ends := re.search(r"from (\S+) .*?to ([0-9.e+-]*\d)", words.replace(",", " ")):
+        return float(ends[1]), float(ends[2])
+    least = 0.0 if "above 0" in words or "0 or above" in words else -math.inf
+    most = re.search(r"up to ([0-9.e+-]*\d)", words)
+    return least, float(most[1]) if most else math.inf
+
+
+def _start(case: Case, keys: Sequence[str]) -> dict[str, float]:
+    known, start = all_keys(), {}
+    for key in keys:
+        numbers = ", ".join(name for name in known if known[name].type == "number" and name.startswith(("beam.", "striker.", "contact.")))
+        if key not in known or known[key].type != "number":
+            what = f"is {known[key].allowed}" if key in known else "is no key"
+            raise CaseError(f"{key} {what}, and a fit changes numbers; allowed: {numbers}", key)
+        value = case[key]
+        if not isinstance(value, (int, float)) or not math.isfinite(value):
+            raise CaseError(f"{key} is {'open' if value is None else repr(value)} in the case, and a fit begins with a number; "
+                            f"set case[\"{key}\"] to a likely one", key)
+        start[key] = float(value)
+    if not start or len(start) < len(keys):
+        raise CaseError(f"keys is {list(keys)!r}; allowed: one key or several, each once")
+    return start
+
+
+class _Runs:
+    """Runs of the case with other values of its keys; the last ones are kept."""
+
+    def __init__(self, case: Case, signal: Signal, start: Mapping[str, float]) -> None:
+        self.units = dict.fromkeys(start, 1.0)  # of keys that begin at 0
+        changes: dict[str, Any] = {"output.sections": [], "output.points": [], "output.shapes": 0.0}
+        changes["output.interval"] = min(signal.interval, case["time.end"] / 500)
+        self.case = case.changed({**case.chosen(), **changes})  # one model for all runs
+        self.start = start
+        self.n = 0
+        self._kept: dict[tuple[float, ...], Result] = {}
+
+    def values(self, x: Numbers) -> dict[str, float]:
+        """At _BEGIN they are those of the start. Keys that begin at 0 change by a unit, others by a factor."""
+        return {key: float(value * math.exp(y - _BEGIN)) if value else float((y - _BEGIN) * self.units[key])
+                for (key, value), y in zip(self.start.items(), x)}
+
+    def choose_units(self, force: Callable[[Numbers], Numbers], limits: tuple[Numbers, Numbers]) -> None:
+        """Of keys that begin at 0, a thousand times the least change that can be seen in the force."""
+        before = force(np.full(len(self.start), _BEGIN))
+        for j, key in enumerate(self.units):
+            change = _STEP * (np.arange(len(self.start)) == j)
+            self.units[key] = 1.0 if self.start[key] else 1e-6
+            while (not self.start[key] and self.units[key] < min(limits[1][j], 1e12)
+                   and np.abs(force(_BEGIN + change) - before).max() < 1e-3 * before.max()):
+                self.units[key] *= 10.0
+
+    def __call__(self, x: Numbers) -> Result:
+        values = self.values(x)
+        at = tuple(values.values())
+        if at not in self._kept:
+            result = run(self.case.changed(values), error_bars="off", model_errors=False)
+            self.n += 1
+            if result.interrupted:
+                raise KeyboardInterrupt
+            if not result.usable and len(result.history) < 2:
+                where = ", ".join(f"{key} = {value:.6g}" for key, value in values.items())
+                raise ResultsError(f"the run with {where} ended {result.outcome}: {result.message}; begin elsewhere, or give bounds")
+            self._kept = {**dict(list(self._kept.items())[-8:]), at: result}
+        return self._kept[at]
+
+
+def _limits(runs: _Runs, bounds: Mapping[str, tuple[float, float]] | None) -> tuple[Numbers, Numbers]:
+    """Of what the fit changes: the range of each key, or what is given."""
+    lower, upper = [], []
+    for key, value in runs.start.items():
+        low, high = (bounds or {}).get(key) or _range(key)
+        if not low <= value <= high:
+            raise CaseError(f"{key} is {value:g}, and its bounds are {low:g} and {high:g}; begin between them", key)
+        if value:
+            low, high = sorted((low / value, high / value))
+            low, high = (math.log(low) if low > 0 else -math.inf), (math.log(high) if high > 0 else math.inf)
+        lower.append(_BEGIN + low / runs.units[key])
+        upper.append(_BEGIN + high / runs.units[key])
+    return np.array(lower), np.array(upper)
+
+
+def fit(
+    case: Case,
+    signal: Signal,
+    keys: str | Sequence[str],
+    *,
+    shift: float | None = None,
+    low_pass: float | None = None,
+    gain: float = 1.0,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    progress: Callable[[int, float], object] | None = None,
+) -> Fit:
+    """Finds the values of keys with which the force of the run differs least from the measured one,
+    by least squares. It begins with the values of the case, which must be likely ones.
+
+    keys       numbers of the case: "striker.nose_radius", "contact.damping"
+    shift      s, by which the measured time is later; None: it is found with the keys
+    low_pass   Hz, cut-off of the transducer; `gain`, measured over true force: both as `align` takes them
+    bounds     least and largest values by key; the others are what the key allows
+    progress   called with the number of runs and the root of the mean square of the difference, N
+
+    Every run is that of the case without error bars. Raises CaseError for keys that are no numbers or
+    have no value, and ResultsError as `align` does.
+    """
+    from scipy.optimize import least_squares
+
+    start = _start(as_case(case), [keys] if isinstance(keys, str) else list(keys))
+    runs = _Runs(case, signal, start)
+    n = len(start)
+    first = align(runs(np.full(n, _BEGIN)), signal, shift, gain, low_pass)
+    interval, step, apart = signal.interval, 0.5 * signal.interval, 20 * signal.interval
+    margin = 0.1 * (first.end - first.begin)
+    inside = (signal.times - first.shift > first.begin - margin) & (signal.times - first.shift < first.end - 16 * interval)
+    times, forces = signal.times[inside], signal.forces[inside] / gain
+
+    def force(z: Numbers, later: float = 0.0) -> Numbers:
+        moved = first.shift + ((z[n] - _BEGIN) * apart if shift is None else 0.0)
+        return curve_of(runs(z[:n]), low_pass).at(times - moved + later)
+
+    def residuals(z: Numbers) -> Numbers:
+        difference = force(z) - forces
+        if progress is not None:
+            progress(runs.n, float(np.sqrt(np.mean(difference**2))))
+        return difference
+
+    def jacobian(z: Numbers) -> Numbers:
+        columns = []
+        for j in range(n):
+            down, up = z.copy(), z.copy()
+            down[j], up[j] = max(z[j] - _STEP, lower[j]), min(z[j] + _STEP, upper[j])
+            columns.append((force(up) - force(down)) / (up[j] - down[j]))
+        if shift is None:
+            columns.append((force(z, -step) - force(z, step)) / (2 * step) * apart)
+        return np.stack(columns, axis=1)
+
+    free = np.full(n + (shift is None), _BEGIN)
+    runs.choose_units(lambda x: force(np.r_[x, free[n:]]), _limits(runs, bounds))
+    lower, upper = _limits(runs, bounds)
+    ends = (np.r_[lower, [-np.inf] * (len(free) - n)], np.r_[upper, [np.inf] * (len(free) - n)])
+    found = least_squares(residuals, np.clip(free, *ends), jac=jacobian, bounds=ends, method="dogbox",
+                          xtol=1e-6, ftol=1e-7)
+    covariance = covariance_of(found.jac, found.fun)[:n, :n]
+    values = runs.values(found.x[:n])
+    deviations = np.sqrt(np.diag(covariance))
+    per_x = np.array([abs(value) if start[key] else runs.units[key] for key, value in values.items()])
+    with np.errstate(invalid="ignore"):
+        related = covariance / np.outer(deviations, deviations)
+    return Fit(tuple(start), np.array(list(values.values())), deviations * per_x, related,
+               align(runs(found.x[:n]), signal, shift, gain, low_pass), case.changed(values), runs.n)

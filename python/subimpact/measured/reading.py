@@ -1,0 +1,299 @@
+"""Measured forces, from the files of instruments and spreadsheets."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Union
+
+import numpy as np
+
+from .._errors import ResultsError
+from .._text import one_line, read_at_most
+from .tables import Table
+from .units import Sensitivity, Unit, quantity, sensitivity_of, unit_of, value_in
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+Column = Union[int, str]
+_MOST_BYTES = 4_000_000_000
+_TIME = re.compile(r"t\b|time|zeit|x_?value", re.IGNORECASE)
+_FORCE = re.compile(r"f\b|force|kraft|load|last\b", re.IGNORECASE)
+_INCREMENTS = ("increment", "deltax", "deltat", "dt", "tinc", "xinc", "sampleinterval", "samplinginterval", "timeinterval",
+               "sampleperiod", "samplingperiod", "timestep", "hresolution", "interval", "abtastintervall")
+_RATES = ("samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "fs", "abtastrate", "abtastfrequenz")
+_STARTS = ("start", "starttime", "x0", "t0", "hoffset", "xzero", "firstsample")
+_MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237}
+
+
+@dataclass(frozen=True, repr=False)
+class Signal:
+    """A measured contact force; positive where it pushes."""
+
+    times: npt.NDArray[np.float64]  #: s, increasing
+    forces: npt.NDArray[np.float64]  #: N
+    source: str = "signal"
+    assumed: tuple[str, ...] = ()  #: how the file was read, in words
+
+    @property
+    def interval(self) -> float:
+        """The median of the times between samples, s."""
+        return float(np.median(np.diff(self.times)))
+
+    def __repr__(self) -> str:
+        return (f"<Signal of {self.source}: {len(self.times)} samples {1e6 * self.interval:.6g} us apart, "
+                f"{self.forces.min():.6g} to {self.forces.max():.6g} N; {'; '.join(self.assumed)}>")
+
+
+def _listed(value: Column | Sequence[Column] | None) -> list[Column]:
+    """An option of one or two values; a text has them with a comma between."""
+    if isinstance(value, str):
+        return [int(part) if part.isdecimal() else part for part in map(str.strip, value.split(","))]
+    return [] if value is None else [value] if isinstance(value, int) else list(value)
+
+
+class _Reading:
+    """Which columns of a table hold time and force, and in what units."""
+
+    def __init__(self, table: Table, columns: list[Column], units: list[Column]) -> None:
+        self.table = table
+        self.time: int | None = None
+        given = [self._index(column) for column in columns]
+        stated = dict(enumerate(table.units))
+        for column, text in zip(given[-len(units):] if given else [], units):
+            stated[column] = self._given_unit(text)
+        if given:
+            self.time, self.force = (given[0] if len(given) > 1 else None), given[-1]
+        else:
+            self.time = self._choose({"time"}, stated, _TIME, "times")
+            self.force = self._find_force(stated, units)
+        if self.time is None and len(given) != 1:
+            self.time = self._unnamed_time(units)
+        self.time_unit = self._unit(self.time, units[0] if len(units) > 1 else None, "time")
+        self.force_unit = self._unit(self.force, units[-1] if units else None, "force")
+
+    def _given_unit(self, text: Column) -> Unit:
+        if (unit := unit_of(str(text))) is None:
+            raise ResultsError(f"units has {text!r}; allowed: those of time and force, such as units=us,kN, volts, m/s^2 and g too")
+        return unit
+
+    def _label(self, j: int) -> str:
+        return f"column {j + 1}" + (f" ({one_line(self.table.names[j])})" if self.table.names[j] else "")
+
+    def _all(self, columns: Sequence[int]) -> str:
+        return ", ".join(map(self._label, columns))
+
+    def _index(self, column: Column) -> int:
+        names = [name.casefold() for name in self.table.names]
+        bare = [re.sub(r"\s*[\[({].*|[_ ]\w+$", "", name) for name in names]
+        for options in (names, bare):
+            if isinstance(column, str) and options.count(column.casefold()) == 1:
+                return options.index(column.casefold())
+        if isinstance(column, int) and 1 <= column <= self.table.width:
+            return column - 1
+        self.table.fail(self.table.heading or None, f"has no column {column!r}; allowed: {self._all(range(self.table.width))}, by "
+                        "number or by name")
+
+    def _choose(self, kinds: set[str], stated: dict[int, Unit | None], name: re.Pattern[str], what: str) -> int | None:
+        """The column in such a unit; of several the one that is named so."""
+        found = [j for j in self.table.columns if (unit := stated[j]) is not None and unit.kind in kinds]
+        named = [j for j in found if name.match(self.table.names[j])]
+        if len(found) > 1 and len(named) != 1:
+            self.table.fail(self.table.heading, f"has several columns of {what}: {self._all(found)}; give columns=T,F, the "
+                            "numbers of that of the time and that of the force")
+        return (named or found or [None])[0]
+
+    def _find_force(self, stated: dict[int, Unit | None], units: list[Column]) -> int:
+        table = self.table
+        for kinds in ({"force"}, {"acceleration", "voltage", "charge"}):
+            if (found := self._choose(kinds, stated, _FORCE, "forces")) is not None:
+                return found
+        others = [j for j in table.columns if j != self.time and stated[j] is None]
+        named = [j for j in others if _FORCE.match(table.names[j])]
+        if len(named) == 1:
+            return named[0]
+        others = [j for j in others if not self._is_index(j) and not _TIME.match(table.names[j])] or others
+        others = others[1:] if len(others) == 2 and self.time is None and not table.names[others[0]] else others
+        if len(others) != 1:
+            table.fail(table.heading or table.first + 1, f"names no column of forces among {self._all(others)}; give "
+                       "columns=T,F, the numbers of that of the time and that of the force, and units=us,N if no unit is stated")
+        return others[0]
+
+    def _is_index(self, j: int) -> bool:
+        return re.match(r"(x|sample|sequence|index|nr|no|point|#)\b", self.table.names[j], re.IGNORECASE) is not None
+
+    def _unnamed_time(self, units: list[Column]) -> int | None:
+        """A column of times whose unit is not in the heading, unless the metadata have the interval."""
+        rest = [j for j in self.table.columns if j < self.force and self.table.units[j] is None]
+        named = [j for j in rest if _TIME.match(self.table.names[j])]
+        if len(named) == 1:
+            return named[0]
+        if self._metadata(_INCREMENTS + _RATES) and (len(rest) != 1 or self._is_index(rest[0])):
+            return None
+        return rest[0] if len(rest) == 1 and not self._is_index(rest[0]) else None
+
+    def _metadata(self, keys: tuple[str, ...]) -> str | None:
+        """The value of the first of these keys; of several channels that of the force."""
+        for key, values in self.table.metadata.items():
+            if key in keys or any(len(name) > 6 and key.startswith(name) for name in keys):
+                value = values[0]
+                return re.sub(r"^[A-Za-z]\w*:\s*", "", value)
+        return None
+
+    def _unit(self, column: int | None, given: Column | None, what: str) -> Unit | None:
+        """The unit of a column: as given, by the heading, or by the metadata."""
+        if column is None:
+            return None
+        if given is not None:
+            return self._given_unit(given)
+        if unit := self.table.units[column]:
+            return unit
+        keys = (("horizontalunits", "hunit", "xunit", "xunitlabel", "timeunit") if what == "time" else
+                ("verticalunits", "vunit", "yunit", "yunitlabel", "forceunit", "unit"))
+        if (text := self._metadata(keys)) and (unit := unit_of(text)):
+            return unit
+        if what == "time" and self.table.maker:
+            return unit_of("s")
+        self.table.fail(self.table.heading or None, f"states no unit of {what}, in {self._label(column)}; give units=us,N, those of "
+                        "time and force, or write them into the heading: time_us,force_N")
+
+    def times(self, n: int, interval: str | None) -> tuple[npt.NDArray[np.float64], str]:
+        """Times by start and increment, and how they are known."""
+        if interval is not None:
+            step = value_in("time", interval)
+            if step is None or not step > 0.0:
+                raise ResultsError(f"interval is {interval!r}; allowed: a time above 0 with its unit, such as interval=1us")
+            return step * np.arange(n), "interval as given"
+        step = self._seconds(_INCREMENTS)
+        if step is None and (rate := self._metadata(_RATES)):
+            hertz = value_in("frequency", rate)
+            step = 1.0 / hertz if hertz else None
+        if step is None or not step > 0.0:
+            self.table.fail(self.table.heading or None, "has no column of times and states no interval between samples with its "
+                            "unit; give interval=1us, or columns=T,F, the numbers of that of the time and that of the force")
+        start = self._seconds(_STARTS) or 0.0
+        return start + step * np.arange(n), f"samples {1e6 * step:.6g} us apart from {1e6 * start:.6g} us on, by the metadata"
+
+    def _seconds(self, keys: tuple[str, ...]) -> float | None:
+        parts = quantity(text) if (text := self._metadata(keys)) else None
+        if not parts:
+            return None
+        unit = unit_of(parts[1] or self._metadata(("horizontalunits", "hunit", "xunit", "timeunit")) or "")
+        if unit is None and not parts[1] and (self.table.maker or {"start", "increment"} <= self.table.metadata.keys()
+                                              or "tinc" in self.table.metadata):  # LabVIEW, Rigol: in seconds
+            unit = unit_of("s")
+        return parts[0] * unit.factor if unit and unit.kind == "time" else None
+
+    def newtons(self, sensitivity: str | None, mass: float | str | None) -> tuple[float, str]:
+        """What the column of the force is multiplied by, and why."""
+        table, unit, where = self.table, self.force_unit, self._label(self.force)
+        assert unit is not None
+        factor, kind, words = unit.factor, unit.kind, f"force: {where}, {unit.symbol}"
+        if kind in ("voltage", "charge"):
+            text = sensitivity or self._metadata(("sensitivity", "empfindlichkeit"))
+            known: Sensitivity | None = sensitivity_of(text) if text else None
+            if known is None or known.electrical != kind:
+                said = f"sensitivity is {text!r}, and {where}" if sensitivity else where
+                table.fail(table.heading or None, f"{said} is in {unit.symbol}; give sensitivity=\"2.27 mV/N\", what the transducer "
+                           "makes of a newton (or of m/s^2 or g, with a mass)")
+            factor, kind, words = factor / known.per, known.mechanical, words + f" at {text}"
+        if kind == "acceleration":
+            text = str(mass) if mass is not None else self._metadata(("mass", "masse", "strikermass")) or ""
+            parts = quantity(text)
+            kilograms = parts[0] * _MASSES.get(parts[1] or ("kg" if mass is not None else ""), 0.0) if parts else 0.0
+            if not kilograms > 0.0:
+                table.fail(table.heading or None, f"{where} is an acceleration; give mass=\"0.2 kg\", that of the body which it is "
+                           "measured on")
+            factor, kind, words = factor * kilograms, "force", words + f" times {kilograms:g} kg"
+        if kind != "force":
+            table.fail(table.heading or None, f"{where} is in {unit.symbol}, no unit of force; give columns=T,F, the numbers of "
+                       "that of the time and that of the force, or units=us,N")
+        return factor, words
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    columns: Column | Sequence[Column] | None = None,
+    units: str | Sequence[str] | None = None,
+    scale: float = 1.0,
+    sign: int | None = None,
+    sensitivity: str | None = None,
+    mass: float | str | None = None,
+    interval: str | None = None,
+    skip: int = 0,
+    rows: int | None = None,
+    separator: str | None = None,
+    decimal: str | None = None,
+) -> Signal:
+    """The contact force that an instrument or a spreadsheet has written as a table of text.
+
+    A file that states what it holds needs no option. Raises ResultsError for any other: the message
+    names the place and the option that helps.
+
+    columns      of time and force, by number from 1 or by name: (1, 3), "Time,Force"; one: the force
+    units        of both: ("us", "kN") or "us,kN"; one: of the force. Accelerations and volts are allowed
+    scale        the force is multiplied by this
+    sign         -1 where the file has compression negative, 1 where it is as it should be
+    sensitivity  of a transducer in volts or coulombs: "2.27 mV/N", "10 mV/g"
+    mass         of the body whose acceleration was measured: kg, or "201 g"
+    interval     between samples, in place of a column of times: "1us"
+    skip, rows   how many lines not to read at the top, and how many of the table to read
+    separator    of cells: "," or ";" or "\\t", " " for blanks
+    decimal      "." or ","
+
+    Cells that are empty, NaN or infinite are left out; samples of one time are averaged.
+    """
+    file = one_line(os.fsdecode(path))
+    if sign not in (None, 1, -1):
+        raise ResultsError(f"sign is {sign!r}; allowed: 1, or -1 where the file has compression negative")
+    try:
+        content = read_at_most(path, _MOST_BYTES)
+    except OSError as error:
+        raise ResultsError(f"{file}: cannot be read ({error.strerror}); give the path of a table of numbers, such as a CSV "
+                           "file of an instrument") from None
+    table = Table(content, file, skip, rows, {"tab": "\t", "\\t": "\t"}.get(separator or "", separator), decimal)
+    by_interval = interval is not None and columns is None and units is None
+    reading = _Reading(table, _listed(columns), _listed(units))
+    if by_interval or interval is not None:
+        reading.time = None
+    factor, words = reading.newtons(sensitivity, mass)
+    wanted = [reading.force] if reading.time is None else [reading.time, reading.force]
+    numbers = table.numbers(wanted)
+    if reading.time is None or reading.time_unit is None:
+        times, how = reading.times(len(numbers), interval)
+    else:
+        times = numbers[:, 0] * reading.time_unit.factor
+        how = f"time: {reading._label(reading.time)}, {reading.time_unit.symbol}"
+    forces = numbers[:, -1] * factor * scale
+    if sign is None and "times" in words and np.nanmin(forces) < -np.nanmax(forces):
+        forces, words = -forces, words + ", which slows the striker down: sign changed"
+    return _signal(table, wanted, times, forces, [how, words], sign)
+
+
+def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], forces: npt.NDArray[np.float64],
+            assumed: list[str], sign: int | None) -> Signal:
+    """What was read without the gaps, of the right sign."""
+    kept = np.flatnonzero(np.isfinite(times) & np.isfinite(forces))
+    if n_left_out := len(times) - len(kept):
+        assumed.append(f"{n_left_out} rows without a number left out")
+    times, forces = times[kept], forces[kept]
+    steps = np.diff(times)
+    if (steps < 0.0).any():
+        line = table.line_of(int(kept[int(np.argmax(steps < 0.0)) + 1]), wanted)
+        table.fail(line, "the time is earlier than that of the row above; give rows=N to end before this line, columns=T,F "
+                   "for another column of times, or interval=1us for none")
+    if (steps == 0.0).any():
+        begins = np.flatnonzero(np.r_[True, steps > 0.0])
+        forces = np.add.reduceat(forces, begins) / np.diff(np.r_[begins, len(times)])
+        times = times[begins]
+        assumed.append("samples of one time averaged")
+    if len(times) < 3:
+        table.fail(table.first + 1, f"has {len(times)} rows of numbers, and 3 are the least; allowed: the record of a strike")
+    if sign is None and -forces.min() > max(forces.max(), 0.0):
+        table.fail(table.heading or None, f"the force lies between {forces.min():.4g} and {forces.max():.4g} N, and contact pushes: "
+                   "give sign=-1 if the file has compression negative, sign=1 if not")
+    return Signal(times, forces * (sign or 1), table.file, (*assumed, *(["sign changed"] if sign == -1 else [])))

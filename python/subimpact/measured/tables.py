@@ -1,0 +1,292 @@
+"""Tables of numbers as instruments and spreadsheets write them: where rows begin, and what heads them."""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+import re
+from collections import Counter
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+
+from .._errors import ResultsError
+from .._text import one_line
+from .units import Unit, quantity, unit_in, unit_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+_EMPTY = ("", "nan", "-nan", "inf", "-inf", "+inf", "infinity", "-infinity", "∞", "-∞", "+∞", "n/a", "#n/a", "na",
+          "null", "none", "--", "-", "1.#qnan", "1.#inf", "-1.#inf", "-1.#ind", "overflow", "over")
+_NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+|\d{1,3}(?:[.,]\d{3})+(?:[.,]\d*)?)(?:[eE][-+]?\d+)?")
+_NUMBERS_ONLY = re.compile(r"[-+\d.,;|\s\"eEnaif∞]*\d[-+\d.,;|\s\"eEnaif∞]*", re.IGNORECASE)
+_INDEX = ("sequence", "sample", "samples", "index", "point", "points", "nr", "no", "")
+_BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF32_LE: "utf-32", codecs.BOM_UTF32_BE: "utf-32",
+         codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+
+
+def _is_empty(cell: str) -> bool:
+    return cell.lower() in _EMPTY
+
+
+def _decoded(content: bytes, file: str) -> str:
+    head = content[:2000]
+    codec = next((name for bom, name in _BOMS.items() if content.startswith(bom)), None)
+    if codec is None and b"\0" in head:
+        codec = "utf-16-le" if head[1::2].count(0) > len(head) // 4 else "utf-16-be"
+    try:
+        text = content.decode(codec or "utf-8")
+    except UnicodeDecodeError:
+        text = "\0" if codec else content.decode("cp1252", "replace")
+    if "\0" in text[:2000]:
+        raise ResultsError(f"{file}: is no text; allowed: CSV and other tables of numbers; export it as CSV")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _is_grouped(text: str, mark: str) -> bool:
+    """Whether every `mark` in the text can stand between thousands."""
+    numbers = re.findall(rf"[\d.,]*\{mark}[\d.,]*", text)
+    return all(re.fullmatch(rf"[1-9]\d{{0,2}}(\{mark}\d{{3}})+([.,]\d*)?", number) for number in numbers)
+
+
+class Table:
+    """The numbers of a file with what its heading and its metadata say about them."""
+
+    def __init__(self, content: bytes, file: str, skip: int, rows: int | None,
+                 separator: str | None, decimal: str | None) -> None:
+        self.file = file
+        self.lines = _decoded(content, file).split("\n")
+        self.metadata: dict[str, list[str]] = {}  #: values by keys of small letters and digits
+        if first := re.fullmatch(r'"?sep=(.)"?', self.lines[0].strip("\ufeff ")):
+            separator = separator or first[1]
+            self.lines[0] = ""
+        self.maker = next((name for name in ("LabVIEW", "LECROY") if self.lines[0].startswith(name)), "")
+        self.lines[:skip] = [""] * min(skip, len(self.lines))
+        sample = self._sample()
+        self.separator = separator or self._separator_of(sample, decimal)  #: " " for blanks
+        self._is_paired = self.separator == decimal == ","
+        if self._is_paired and any('"' in line for line in sample):
+            self._is_paired = False
+        self.decimal = decimal or self._decimal_of(sample)
+        self._find_columns(sample)
+        self._find_rows(rows)
+        self._read_heading()
+
+    def fail(self, line: int | None, text: str) -> NoReturn:
+        """Refuses the file, or one of its lines."""
+        raise ResultsError(f"{self.file}{'' if line is None else f':{line}'}: {one_line(text)}")
+
+    def _bare(self, line: str) -> str:
+        """The line without marks of a comment."""
+        marks = r"\s*(?:[#%!*;]+|//+)\s*" if self.separator != ";" else r"\s*(?:[#%!*]+|//+)\s*"
+        return re.sub(marks, "", line, count=1) if re.match(marks, line) else line
+
+    def _sample(self) -> list[str]:
+        """Lines that hold numbers alone, or else any from the later half."""
+        n = len(self.lines)
+        lines = self.lines if n <= 400 else self.lines[n // 2 : n // 2 + 200]
+        lines = [line for line in lines if line.strip()]
+        numbers = [line for line in lines if _NUMBERS_ONLY.fullmatch(line)]
+        if not (sample := numbers if len(numbers) > len(lines) // 4 else lines[len(lines) // 2 :]):
+            self.fail(None, "holds no rows of numbers; allowed: a table with a column of forces")
+        return sample
+
+    @staticmethod
+    def _separator_of(sample: list[str], decimal: str | None) -> str:
+        for separator, pattern in ((";", ";"), ("|", r"\|"), (",", r",[\s\",]|,$|^,"), ("\t", "\t"),
+                                   (" ", r"\S +\S")):
+            if 2 * sum(bool(re.search(pattern, line.strip(" "))) for line in sample) > len(sample):
+                return separator
+        return "," if any("," in line for line in sample) else " "
+
+    def _decimal_of(self, sample: list[str]) -> str:
+        """The mark of decimals, where it can be told."""
+        text = "\n".join(sample)
+        if self.separator == ",":  # commas within quotes
+            text = "\n".join(re.findall(r'"([^"]*)"', text))
+            if "," not in text:
+                return "."
+        marks = [mark for mark in ".," if mark in text]
+        if both := re.findall(r"\d([.,])\d+([.,])\d", text):
+            return next((last for first, last in both if first != last), "," if both[0][0] == "." else ".")
+        whole = "\n".join(self.lines) if len(text) < 100_000 and marks else text
+        plain = [mark for mark in marks if not _is_grouped(text, mark)]
+        if not plain and len(marks) == 1 and self.separator != " ":
+            body = "\n".join(line for line in whole.split("\n") if _NUMBERS_ONLY.fullmatch(line))
+            plain = [mark for mark in marks if not _is_grouped(body, mark)]
+        if len(plain) > 1 or (marks and not plain):
+            self.fail(None, f"cannot be told whether {' and '.join(map(repr, marks))} in its numbers begin decimals or part "
+                      "thousands; give decimal=. or decimal=,")
+        return plain[0] if plain else "."
+
+    def cells(self, line: str) -> list[str]:
+        """The cells of a line, stripped."""
+        if self.separator == " ":
+            return re.split(r"\s+(?![\[({])", line.strip())
+        if '"' in line:
+            return [cell.strip() for cell in next(csv.reader([line.strip(" ")], delimiter=self.separator,
+                                                             skipinitialspace=True))]
+        cells = [cell.strip() for cell in line.split(self.separator)]
+        if self._is_paired:
+            return [",".join(cells[i : i + 2]) for i in range(0, len(cells), 2)]
+        return cells
+
+    def _find_columns(self, sample: list[str]) -> None:
+        rows = [self.cells(line) for line in sample]
+        self.width = Counter(map(len, rows)).most_common(1)[0][0]
+        rows = [row for row in rows if len(row) == self.width]
+        columns = list(zip(*rows))
+        self.columns = [j for j, cells in enumerate(columns)  #: that hold numbers
+                        if 2 * sum(bool(_NUMBER.fullmatch(cell)) for cell in cells) >= len(cells)]
+        if not self.columns:
+            self.fail(None, "holds no rows of numbers; allowed: a table with a column of forces; separator=, says what "
+                      "stands between its cells")
+        before = self.columns[0] - 1
+        self._is_bare_before = before >= 0 and all(cell == "" for cell in columns[before])
+
+    def _is_row(self, cells: list[str]) -> bool:
+        if self._is_bare_before and len(cells) > self.columns[0] and cells[self.columns[0] - 1]:
+            return False
+        mine = [cells[j] for j in self.columns if j < len(cells)]
+        return any(map(_NUMBER.fullmatch, mine)) and all(_NUMBER.fullmatch(c) or _is_empty(c) for c in mine)
+
+    def _find_rows(self, rows: int | None) -> None:
+        filled = (i for i, line in enumerate(self.lines) if line.strip() and self._bare(line) is line)
+        last = None
+        for i in filled:
+            is_row = self._is_row(self.cells(self.lines[i]))
+            if is_row and last is not None:
+                break
+            last = i if is_row else None
+        if last is None:
+            self.fail(None, "holds no rows of numbers; allowed: a table with a column of forces")
+        self.first = last  #: index of the line with the first row
+        if rows is not None:
+            del self.lines[self.first + rows :]
+
+    def _is_units(self, cells: list[str]) -> bool:
+        """Whether this row has the units of the columns."""
+        has = [unit_of(cell) is not None for cell in cells]
+        return any(has) and all(known or cell.lower() in _INDEX or re.fullmatch(r"[\[(].*[\])]", cell) is not None
+                                or (j not in self.columns and _NUMBER.fullmatch(cell) is not None)
+                                for j, (cell, known) in enumerate(zip(cells, has)))
+
+    def _heading_cells(self, line: str) -> list[str] | None:
+        """The cells of a line that can name the columns, whatever separates them."""
+        bare = self._bare(line)
+        for pattern in (None, ",", ";", "\t", r"\s{2,}", r"\s+(?![\[({])"):
+            cells = self.cells(bare) if pattern is None else [c.strip() for c in re.split(pattern, bare.strip())]
+            mine = [cells[j] for j in self.columns if j < len(cells)]
+            if any(re.match(r"[-+]?\d", cell) for cell in mine):
+                return None
+            if len(mine) == len(self.columns) and any(mine):
+                return cells
+        return self.cells(bare) if bare is line and len(self.cells(bare)) > 1 else None
+
+    def _read_heading(self) -> None:
+        self.heading = 0  #: number of its line; 0: none
+        self.names = [""] * self.width
+        stated: list[dict[str, tuple[int, Unit]]] = [{} for _ in range(self.width)]
+        i = self.first - 1
+        taken: dict[int, list[str]] = {}
+        while i >= 0:
+            cells = self._heading_cells(self.lines[i]) if self.lines[i].strip() else []
+            if cells is None:
+                break
+            if cells:
+                taken[i] = cells
+                is_units = self._is_units(cells)
+                for j, cell in enumerate(cells[: self.width]):
+                    if unit := unit_of(cell) if is_units else unit_in(cell):
+                        stated[j][unit.symbol] = (i + 1, unit)
+                if not is_units or len(taken) == 2:
+                    self.names[: len(cells)] = cells[: self.width]
+                    self.heading = i + 1
+                    break
+                self.heading = i + 1
+            i -= 1
+        for j, units in enumerate(stated):
+            if len(units) > 1:
+                self.fail(self.heading, f"column {j + 1} is in {' and in '.join(units)}; give units=us,N")
+        self.units = [next(iter(units.values()))[1] if units else None for units in stated]
+        self._check_width(taken)
+        self._read_metadata(taken)
+
+    def _check_width(self, taken: dict[int, list[str]]) -> None:
+        n_named = max((len(cells) for cells in taken.values()), default=self.width)
+        if n_named < self.width and self.columns[-1] >= n_named and not self._is_paired:
+            self.fail(self.first + 1, f"has {self.width} cells where the heading has {n_named}; if decimals begin with a comma, "
+                      "give decimal=, and otherwise skip=N, the number of lines before the rows")
+
+    def _read_metadata(self, taken: dict[int, list[str]]) -> None:
+        for i in range(min(self.first + 100, len(self.lines))):
+            line = self._bare(self.lines[i])
+            if i in taken:
+                for cell in taken[i]:
+                    self._note(*cell.partition("=")[::2])
+                continue
+            cells = [cell for j, cell in enumerate(self.cells(line)) if i < self.first or j < self.columns[0]]
+            if i < self.first and (match := re.match(r"\s*([^:=,;\t]+?)\s*[:=]\s*(.*)", line)):
+                self._note(match[1], *filter(None, map(str.strip, re.split(r"[;\t]|,(?!\d)", match[2]))))
+            elif cells:
+                self._note(*filter(None, cells))
+        rows = list(taken.values())
+        if len(rows) == 2:  # "Start,Increment" above two numbers
+            for name, value in list(zip(rows[1], rows[0]))[self.columns[-1] + 1 :]:
+                self._note(name, value)
+
+    def _note(self, key: str = "", *values: str) -> None:
+        if not (key := key.strip()) or not values or not values[0]:
+            return
+        unit = unit_in(key)
+        number = quantity(values[0])
+        if unit and number and not number[1]:
+            values = (f"{number[0]!r} {unit.symbol}", *values[1:])
+        self.metadata.setdefault(re.sub(r"[\[({].*|[^a-z0-9]", "", key.lower()), list(values))
+
+    def numbers(self, wanted: list[int]) -> npt.NDArray[np.float64]:
+        """The numbers of some columns, a row per row; NaN where there is none."""
+        import pandas
+
+        body = self.lines[self.first :]
+        if self.separator != "," or max(line.count(",") for line in body) < self.width:
+            try:
+                frame = pandas.read_csv(
+                    io.StringIO("\n".join(body)), sep=r"\s+" if self.separator == " " else self.separator, header=None,
+                    names=list(range(self.width)), usecols=wanted, decimal=self.decimal, dtype=float, index_col=False,
+                    na_values=[*_EMPTY, "NaN", "Inf", "OVERFLOW"], skipinitialspace=True, comment="#")
+                return np.column_stack([frame[j].to_numpy() for j in wanted])
+            except ValueError:  # a cell that is no number; those of ParserError too
+                pass
+        return np.array([numbers for _, numbers in self._careful_rows(wanted)])
+
+    def line_of(self, row: int, wanted: list[int]) -> int:
+        """The number of the line of a row of `numbers`."""
+        return next(line for k, (line, _) in enumerate(self._careful_rows(wanted)) if k == row)
+
+    def _careful_rows(self, wanted: list[int]) -> Iterator[tuple[int, list[float]]]:
+        """Rows one by one, with the numbers of their lines."""
+        last = len(self.lines)
+        while not _NUMBER.search(self.lines[last - 1]) or not self._is_row(self.cells(self.lines[last - 1])):
+            last -= 1  # what follows the table
+        for i in range(self.first, last):
+            line = self.lines[i]
+            if not line.strip() or self._bare(line) is not line:
+                continue
+            cells = self.cells(line)
+            if len(cells) > self.width and any(cells[self.width :]):
+                self.fail(i + 1, f"has {len(cells)} cells where other rows have {self.width}; give decimal=, or separator=; "
+                          "as it is, or rows=N to end before this line")
+            yield i + 1, [self._number(cells[j] if j < len(cells) else "", i + 1, j) for j in wanted]
+
+    def _number(self, cell: str, line: int, column: int) -> float:
+        if _is_empty(cell):
+            return float("nan")
+        other = "," if self.decimal == "." else "."
+        if not _NUMBER.fullmatch(cell) or (other in cell and not _is_grouped(cell, other)):
+            self.fail(line, f"column {column + 1} is \"{cell}\"; allowed: a number with decimals after \"{self.decimal}\"; give "
+                      f"decimal={other} if it has them, or rows=N or skip=N to leave this line out")
+        return float(cell.replace(other, "").replace(self.decimal, "."))

@@ -1,0 +1,119 @@
+"""Units of time, force, voltage, charge and acceleration, as instruments and spreadsheets write them."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+_PREFIXES = {"": 1.0, "G": 1e9, "M": 1e6, "k": 1e3, "m": 1e-3, "u": 1e-6, "n": 1e-9, "p": 1e-12}
+_WORDS = {"": "", "G": "giga", "M": "mega", "k": "kilo", "m": "milli", "u": "micro", "n": "nano", "p": "pico"}
+#: What a second, newton, volt and hertz are called beside their symbols.
+_NAMES = {
+    "s": ("sec", "secs", "second", "seconds", "sekunde", "sekunden"),
+    "N": ("newton", "newtons"),
+    "V": ("volt", "volts"),
+    "Hz": ("hertz",),
+}
+#: Kinds by symbol, and their prefixes: nobody writes "MV" or "ks" who does not mean mV or something else.
+_KINDS = {"s": ("time", "munp"), "N": ("force", "GMkmun"), "V": ("voltage", "kmun"), "C": ("charge", "munp"),
+          "Hz": ("frequency", "GMk"), "S/s": ("frequency", "GMk")}
+_STANDARD_GRAVITY = 9.80665  # m/s^2
+
+
+class Unit(NamedTuple):
+    """Values times `factor` are in SI."""
+
+    kind: str  #: "time", "force", "voltage", "charge", "acceleration" or "frequency"
+    factor: float
+    symbol: str
+
+
+def _table() -> dict[str, Unit]:
+    table = {}
+    for base, (kind, prefixes) in _KINDS.items():
+        for prefix in ["", *prefixes]:
+            unit = Unit(kind, _PREFIXES[prefix], prefix + base)
+            table[prefix + base] = unit
+            for name in _NAMES.get(base, ()):
+                table[_WORDS[prefix] + name] = table[prefix + name] = unit
+    del table["C"]  # Celsius, mostly
+    # "S", "uS" and "KN" are careless, but of a signal nothing else; "MS", "MV" and "kg" may be anything.
+    for careless, symbol in {"S": "s", "mS": "ms", "uS": "us", "US": "us", "nS": "ns", "NS": "ns", "KN": "kN",
+                             "Sa/s": "S/s", "kSa/s": "kS/s", "MSa/s": "MS/s", "1/s": "Hz"}.items():
+        table[careless] = table[symbol]
+    for symbol, factor in {"lbf": 4.4482216152605, "kgf": _STANDARD_GRAVITY, "kp": _STANDARD_GRAVITY}.items():
+        table[symbol] = Unit("force", factor, symbol)
+    for symbol in ("g", "G", "gn"):
+        table[symbol] = Unit("acceleration", _STANDARD_GRAVITY, "g")
+    for symbol in ("m/s2", "m/s/s", "ms-2", "m/sec2"):
+        table[symbol] = Unit("acceleration", 1.0, "m/s^2")
+    table["mm/s2"] = Unit("acceleration", 1e-3, "mm/s^2")
+    return table
+
+
+_UNITS = _table()
+_BRACKETS = re.compile(r"[\[({<]\s*([^\[\](){}<>]+?)\s*[\])}>]")
+_QUANTITIES = r"t|time|zeit|f|force|kraft|load|u|voltage|spannung|a|acceleration|beschleunigung"
+_FRACTION = re.compile(rf"\s*(?:{_QUANTITIES})\s*/\s*(.+)", re.IGNORECASE)  # "F/N"
+
+
+def unit_of(text: str) -> Unit | None:
+    """The unit that this is, such as "us" or "(kN)"."""
+    text = text.strip().strip("[](){}<>\"'").strip().replace("µ", "u").replace("μ", "u").replace("²", "2")
+    text = re.sub(r"(?<=[a-z0-9/])[\s^*·.]+(?=[-a-z0-9(])", "", text) if text[:1] == "m" else text
+    return _UNITS.get(text) or (_UNITS.get(text.lower()) if len(text) > 2 and text.isalpha() else None)
+
+
+def unit_in(name: str) -> Unit | None:
+    """The unit that a heading ends in: "Time (us)", "time_us", "F/N", "Kraft in kN"; not "v_m_per_s"."""
+    if brackets := _BRACKETS.findall(name):
+        units = [unit for text in brackets if (unit := unit_of(text))]
+        return units[-1] if units else None
+    if whole := unit_of(name):
+        return whole
+    if fraction := _FRACTION.fullmatch(name):
+        return unit_of(fraction[1])
+    if channel := re.fullmatch(r"CH\d(m?V)", name.strip()):
+        return unit_of(channel[1])
+    words = re.split(r"[\s_,:;-]+", name.strip())
+    return None if len(words) < 2 or "per" in words[:-1] else unit_of(words[-1])
+
+
+def quantity(text: str) -> tuple[float, str] | None:
+    """A number and what follows it: "2.27 mV/N"; a decimal comma counts as a point."""
+    match = re.fullmatch(r"\s*([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", text.strip())
+    return (float(match[1].replace(",", ".")), (match[2] or "").strip()) if match else None
+
+
+def value_in(kind: str, text: str) -> float | None:
+    """A number with a unit of this kind, such as "-12.5us", in SI; None for anything else."""
+    parts = quantity(text)
+    unit = unit_of(parts[1]) if parts else None
+    return parts[0] * unit.factor if parts and unit and unit.kind == kind else None
+
+
+class Sensitivity(NamedTuple):
+    """What a transducer gives: electrical values divided by `per` are newtons or m/s^2."""
+
+    electrical: str  #: "voltage" or "charge"
+    per: float
+    mechanical: str  #: "force" or "acceleration"
+
+
+def sensitivity_of(text: str) -> Sensitivity | None:
+    """That of "2.27 mV/N", "10 mV/g", "3.9 pC per N" or "440 N/V"."""
+    parts = quantity(text.replace(" per ", "/"))
+    if not parts or parts[0] == 0.0:
+        return None
+    upper, _, lower = parts[1].partition("/")
+    if upper.strip() == "m" and lower.count("/") > 0:  # m/s^2/V
+        upper, _, lower = parts[1].rpartition("/")
+    above, below = unit_of(upper), unit_of(lower)
+    if above is None or below is None:
+        return None
+    per = parts[0] * above.factor / below.factor
+    if above.kind in ("voltage", "charge") and below.kind in ("force", "acceleration"):
+        return Sensitivity(above.kind, per, below.kind)
+    if below.kind in ("voltage", "charge") and above.kind in ("force", "acceleration"):
+        return Sensitivity(below.kind, 1.0 / per, above.kind)
+    return None

@@ -1,0 +1,154 @@
+"""Files of one strike as instruments and spreadsheets write them, and what reading them must give.
+
+The strike: 400 samples 2 us apart from -100 us on, a half sine of 1200 N over 400 us from 0 on.
+"""
+
+import math
+from dataclasses import dataclass, field
+
+N, STEP, BEGIN, PEAK = 400, 2e-6, -1e-4, 1200.0
+TIMES = [BEGIN + i * STEP for i in range(N)]
+FORCES = [PEAK * math.sin(math.pi * t / 4e-4) if 0 < t < 4e-4 else 0.0 for t in TIMES]
+MASS = 0.201  # kg
+GRAVITY = 9.80665  # m/s^2
+CHARGE_AMPLIFIER = "2.27 mV/N"
+
+
+@dataclass
+class File:
+    name: str
+    content: bytes
+    options: dict = field(default_factory=dict)  # what the file does not state
+    refusal: str = ""  # and what the message without these options must have
+    n: int = N
+    begin: float = BEGIN  # s
+    accuracy: float = 1e-3  # of the largest force
+
+    def times(self):
+        return [self.begin + i * STEP for i in range(self.n)]
+
+
+def rows(time, force, separator=",", time_format="{:.4f}", force_format="{:.5f}", comma=False, end="\n",
+         before="", after=""):
+    """Rows of times and forces in units, each times a factor."""
+    lines = (before + time_format.format(t * time) + separator + force_format.format(f * force) + after
+             for t, f in zip(TIMES, FORCES))
+    text = "".join(line + end for line in lines)
+    return text.replace(".", ",") if comma else text
+
+
+def picoscope(unit, factor):
+    return f"Time,Channel A\r\n(us),({unit})\r\n\r\n" + rows(1e6, factor, end="\r\n", time_format="{:.8f}", force_format="{:.8f}")
+
+
+def tektronix_tds():
+    """The metadata stand in the first columns of the rows themselves."""
+    metadata = [("Record Length", "4.000000e+02"), ("Sample Interval", "2.000000e-06"), ("Trigger Point", "5.0e+01"),
+                ("", ""), ("", ""), ("Source", "CH1"), ("Vertical Units", "V"), ("Vertical Scale", "5.000000e-01"),
+                ("Vertical Offset", "0.000000e+00"), ("Horizontal Units", "s"), ("Horizontal Scale", "2.5e-04"),
+                ("Pt Fmt", "Y"), ("Yzero", "0.000000e+00"), ("Probe Atten", "1.000000e+00"), ("Model Number", "TDS2014B"),
+                ("Serial Number", "C000000"), ("Firmware Version", "FV:v22.11")]
+    lines = []
+    for i, (t, f) in enumerate(zip(TIMES, FORCES)):
+        key, value = metadata[i] if i < len(metadata) else ("", "")
+        lines.append(f"{key},{value},,{t: .12f},{f * 2.27e-3: 10.5f},\n")
+    return "".join(lines)
+
+
+def tektronix_mso(unit):
+    return ("Model,MSO4034\nFirmware Version,2.48\n,\nPoint Format,Y,\nHorizontal Units,S,\nHorizontal Scale,4e-05,\n,\n"
+            "Sample Interval,2e-06,\nFilter Frequency,2.5e+08,\nRecord Length,400,\nGating,0.0% to 100.0%,\n"
+            f"Probe Attenuation,10,\nVertical Units,{unit},\nVertical Offset,0,\nVertical Scale,1,\n,\nLabel,,\nTIME,CH1\n"
+            + rows(1, 1, time_format="{:.6e}"))
+
+
+def rigol():
+    lines = [f"{i},{f * 2.27e-3:.6e},\n" for i, f in enumerate(FORCES)]
+    return f"X,CH1,Start,Increment,\nSequence,Volt,{BEGIN:.6e},{STEP:.6e}\n" + "".join(lines)
+
+
+def lecroy():
+    return ("LECROYWS3024,12345,Waveform\nSegments,1,SegmentSize,400\nSegment,TrigTime,TimeSinceSegment1\n"
+            "#1,13-Mar-2020 14:22:11,0\nTime,Ampl\n" + rows(1, 2.27e-3, time_format="{:.6e}"))
+
+
+def labview(comma=False, times=True):
+    head = ("LabVIEW Measurement\t\nWriter_Version\t2\nReader_Version\t2\nSeparator\tTab\nDecimal_Separator\t.\n"
+            "Multi_Headings\tNo\nX_Columns\t" + ("One" if times else "No") + "\nTime_Pref\tRelative\nOperator\tLab\n"
+            "Date\t2015/03/11\nTime\t17:37:59.5\n***End_of_Header***\t\n\t\nChannels\t1\t\nSamples\t400\t\n"
+            "Date\t2015/03/11\t\nTime\t17:37:59.5\t\nY_Unit_Label\tN\t\nX_Dimension\tTime\t\nX0\t-1.0000000000000000E-4\t\n"
+            "Delta_X\t2.000000E-6\t\n***End_of_Header***\t\t\nX_Value\tForce\tComment\n")
+    body = rows(1, 1, "\t", time_format="{:.6f}") if times else "".join(f"\t{f:.5f}\t\n" for f in FORCES)
+    text = head + body
+    return text.replace(".\n", ",\n").replace(".", ",") if comma else text
+
+
+def scopy():
+    lines = [f"{i},{t:.7g},{f * 2.27e-3:.6g},0.001,\n" for i, (t, f) in enumerate(zip(TIMES, FORCES))]
+    return (";Scopy version,9a2a1c3\n;Exported on,Wed Mar 4 11:45:28 2020\n;Device,M2K\n;Nr of samples,400\n"
+            ";Sample rate,500000\n;Tool: Oscilloscope\n;Additional Information: \nSample,Time(S),CH1(V),CH2(V),\n" + "".join(lines))
+
+
+def yokogawa():
+    head = ('"Header Size",12\n"Model Name","DL850"\n"Comment",""\n"TraceName","CH1"\n"BlockSize",400\n"VUnit","N"\n'
+            '"SampleRate",5.0000000E+05\n"HResolution",2.0000000E-06\n"HOffset",-1.0000000E-04\n"HUnit","s"\n'
+            '"Date","2012/05/24"\n"Time","13:45:58.12"\n')
+    return head + "".join(f'"",{f:.5E}\n' for f in FORCES)
+
+
+def with_gaps():
+    lines = rows(1e3, 1, ",").splitlines()
+    for i, cell in ((10, "NaN"), (20, ""), (30, "inf"), (40, "-inf"), (51, "#N/A")):
+        lines[i] = lines[i].split(",")[0] + "," + cell
+    return "time_ms,force_N\n" + "\n".join(lines) + "\n"
+
+
+def repeated_times():
+    """Times with too few digits: each stands twice; the means are half a sample later."""
+    lines = [f"{4.0 * (i // 2) - 100:.0f}\t{f:.4f}\n" for i, f in enumerate(FORCES)]
+    return "t [us]\tF [N]\n" + "".join(lines)
+
+
+def acceleration(unit, factor):
+    """Of the striker, which slows down."""
+    return f"Time [ms];Acceleration [{unit}]\n" + rows(1e3, -1.0 / MASS * factor, ";")
+
+
+def interval_in_a_comment(line):
+    return f"# load cell 9001A\n# {line}\n# unit: N\nforce\n" + "".join(f"{f:.4f}\n" for f in FORCES)
+
+
+def all_files():
+    in_volts = {"sensitivity": CHARGE_AMPLIFIER}
+    german = "Zeit [ms];Kraft [kN]\r\n" + rows(1e3, 1e-3, ";", comma=True, end="\r\n", force_format="{:.6f}")
+    yield File("picoscope-kN.csv", picoscope("kN", 1e-3).encode())
+    yield File("picoscope-mV.csv", picoscope("mV", 2.27).encode("utf-8-sig"), in_volts, "sensitivity=")
+    yield File("tektronix-tds.csv", tektronix_tds().encode(), in_volts, "sensitivity=")
+    yield File("tektronix-mso.csv", tektronix_mso("N").encode())
+    yield File("rigol.csv", rigol().encode(), in_volts, "sensitivity=")
+    yield File("rigol-t0.csv", (f"CH1V,t0 ={BEGIN:.6e}, tInc = {STEP:.6e},\n" + "".join(f"{f * 2.27e-3:.5e},\n" for f in FORCES)).encode(),
+               in_volts, "sensitivity=")
+    yield File("lecroy.csv", lecroy().encode(), {"units": "s,V", **in_volts}, "units=")
+    yield File("labview.lvm", labview().encode())
+    yield File("labview-comma.lvm", labview(comma=True).encode())
+    yield File("labview-no-times.lvm", labview(times=False).encode())
+    yield File("scopy.csv", scopy().encode(), {"columns": (2, 3), **in_volts}, "columns=")
+    yield File("yokogawa.csv", yokogawa().encode())
+    yield File("excel-german.csv", ("sep=;\r\n" + german).encode("cp1252"))
+    yield File("excel-micro.csv", ("Zeit [µs];Kraft [N]\r\n" + rows(1e6, 1, ";", comma=True)).encode("cp1252"))
+    yield File("excel-unicode.txt", ("\ufeff" + german.replace(";", "\t")).encode("utf-16-le"))
+    yield File("excel-utf16be.txt", ("\ufeff" + german).encode("utf-16-be"))
+    yield File("quotes.csv", ('"Time, ms","Force, N"\n' + "".join(f'"{1e3 * t:.4f}"'.replace(".", ",") + "," +
+               f'"{f:.4f}"'.replace(".", ",") + "\n" for t, f in zip(TIMES, FORCES))).encode())
+    yield File("units-in-second-row.csv", ("Run 7,rail,hammer\ntime,force,trigger\ns,N,\n" + rows(1, 1, time_format="{:.6f}", after=",0")).encode())
+    yield File("blanks.dat", ("% hammer blow\n% t [us]   F [kN]\n" + rows(1e6, 1e-3, "   ", before="  ", force_format="{:.6f}")).encode())
+    yield File("blanks-comma.dat", ("Time (us)  Force (N)\n" + rows(1e6, 1, "  ", comma=True)).encode())
+    yield File("gaps.csv", with_gaps().encode(), n=N - 5)
+    yield File("repeated.tsv", repeated_times().encode(), n=N // 2, accuracy=0.02)
+    yield File("negative.csv", ("time_us,force_N\n" + rows(1e6, -1)).encode(), {"sign": -1}, "sign=-1")
+    yield File("no-unit.csv", ("time,force\n" + rows(1e3, 1e-3, force_format="{:.6f}")).encode(), {"units": ("ms", "kN")}, "units=")
+    yield File("acceleration-g.csv", acceleration("g", 1 / GRAVITY).encode(), {"mass": MASS, "sign": -1}, "mass=")
+    yield File("acceleration-si.csv", acceleration("m/s²", -1.0).encode(), {"mass": "201 g"}, "mass=")
+    yield File("rate.txt", interval_in_a_comment("Sampling rate [kHz]: 500").encode(), begin=0.0)
+    yield File("no-interval.txt", interval_in_a_comment("channel 2").encode(), {"interval": "2us"}, "interval=", begin=0.0)
+    yield File("sensitivity.csv", ("# Sensitivity: 2,27 mV/N\nt (ms);U (mV)\n" + rows(1e3, 2.27, ";", comma=True)).encode())
