@@ -88,9 +88,11 @@ def _draw(axes: Any, lines: list[tuple[Numbers, Numbers, str, Any]], begin: floa
 
 
 def _forces(a: Alignment, **options: Any) -> list[tuple[Numbers, Numbers, str, Any]]:
+    from ..plot.style import COLOURS
+
     computed = "computed" if a.low_pass is None else "computed, as the transducer shows it"
-    return [(a.measured.times, a.measured.forces, "measured", {"color": "C1", **options}),
-            (a.computed.times, a.computed.forces, computed, {"color": "C0"})]
+    return [(a.measured.times, a.measured.forces, "measured", {"color": COLOURS[1], **options}),
+            (a.computed.times, a.computed.forces, computed, {"color": COLOURS[0]})]
 
 
 def draw_forces(a: Alignment, axes: Any = None) -> Any:
@@ -112,14 +114,14 @@ def draw_all(a: Alignment) -> Any:
     """The figure of both forces, of their difference, and of the time about the largest force."""
     import matplotlib.pyplot as plt
 
-    from ..plot.style import WIDTH, legend_above, style
+    from ..plot.style import GREY, WIDTH, legend_above, style
 
     with style():
         figure = plt.figure(figsize=(WIDTH, 7.4), layout="constrained")
         top, middle, bottom = figure.subplots(3, gridspec_kw={"height_ratios": [2, 1, 2]})
         _draw(top, _forces(a), a.begin, a.end)
         legend_above(top)
-        _draw(middle, [(*a.difference, "", {"color": "C7"})], a.begin, a.end)
+        _draw(middle, [(*a.difference, "", {"color": GREY})], a.begin, a.end)
         middle.set_ylabel("difference" + middle.get_ylabel().removeprefix("force"))
         half = 0.03 * (a.end - a.begin)
         _draw(bottom, _forces(a, marker=".", markersize=3), max(a.begin, a.measured.peak_time - half),

@@ -58,8 +58,9 @@ def _listed(value: Column | Sequence[Column] | None) -> list[Column]:
 class _Reading:
     """Which columns of a table hold time and force, and in what units."""
 
-    def __init__(self, table: Table, columns: list[Column], units: list[Column]) -> None:
+    def __init__(self, table: Table, columns: list[Column], units: list[Column], has_times: bool, is_electrical: bool) -> None:
         self.table = table
+        self.is_electrical = is_electrical
         self.time: int | None = None
         given = [self._index(column) for column in columns]
         stated = dict(enumerate(table.units))
@@ -70,8 +71,10 @@ class _Reading:
         else:
             self.time = self._choose({"time"}, stated, _TIME, "times")
             self.force = self._find_force(stated, units)
-        if self.time is None and len(given) != 1:
-            self.time = self._unnamed_time(units)
+        if not has_times:
+            self.time = None
+        elif self.time is None and len(given) != 1:
+            self.time = self._unnamed_time()
         self.time_unit = self._unit(self.time, units[0] if len(units) > 1 else None, "time")
         self.force_unit = self._unit(self.force, units[-1] if units else None, "force")
 
@@ -125,7 +128,7 @@ class _Reading:
     def _is_index(self, j: int) -> bool:
         return re.match(r"(x|sample|sequence|index|nr|no|point|#)\b", self.table.names[j], re.IGNORECASE) is not None
 
-    def _unnamed_time(self, units: list[Column]) -> int | None:
+    def _unnamed_time(self) -> int | None:
         """A column of times whose unit is not in the heading, unless the metadata have the interval."""
         rest = [j for j in self.table.columns if j < self.force and self.table.units[j] is None]
         named = [j for j in rest if _TIME.match(self.table.names[j])]
@@ -157,7 +160,10 @@ class _Reading:
             return unit
         if what == "time" and self.table.maker:
             return unit_of("s")
-        self.table.fail(self.table.heading or None, f"states no unit of {what}, in {self._label(column)}; give units=us,N, those of "
+        if what == "force" and self.table.maker == "LECROY" and self.is_electrical:
+            return unit_of("V")
+        said = f"states {self.table.conflicts[column]} as unit of {what}" if column in self.table.conflicts else f"states no unit of {what}"
+        self.table.fail(self.table.heading or None, f"{said}, in {self._label(column)}; give units=us,N, those of "
                         "time and force, or write them into the heading: time_us,force_N")
 
     def times(self, n: int, interval: str | None) -> tuple[npt.NDArray[np.float64], str]:
@@ -256,10 +262,7 @@ def read(
         raise ResultsError(f"{file}: cannot be read ({error.strerror}); give the path of a table of numbers, such as a CSV "
                            "file of an instrument") from None
     table = Table(content, file, skip, rows, {"tab": "\t", "\\t": "\t"}.get(separator or "", separator), decimal)
-    by_interval = interval is not None and columns is None and units is None
-    reading = _Reading(table, _listed(columns), _listed(units))
-    if by_interval or interval is not None:
-        reading.time = None
+    reading = _Reading(table, _listed(columns), _listed(units), interval is None, sensitivity is not None)
     factor, words = reading.newtons(sensitivity, mass)
     wanted = [reading.force] if reading.time is None else [reading.time, reading.force]
     numbers = table.numbers(wanted)

@@ -97,7 +97,7 @@ class Table:
     @staticmethod
     def _separator_of(sample: list[str], decimal: str | None) -> str:
         for separator, pattern in ((";", ";"), ("|", r"\|"), (",", r",[\s\",]|,$|^,"), ("\t", "\t"),
-                                   (" ", r"\S +\S")):
+                                   (" ", r"^[^:]*[^:\s] +[^:\s][^:]*$")):
             if 2 * sum(bool(re.search(pattern, line.strip(" "))) for line in sample) > len(sample):
                 return separator
         return "," if any("," in line for line in sample) else " "
@@ -189,7 +189,7 @@ class Table:
     def _read_heading(self) -> None:
         self.heading = 0  #: number of its line; 0: none
         self.names = [""] * self.width
-        stated: list[dict[str, tuple[int, Unit]]] = [{} for _ in range(self.width)]
+        stated: list[dict[str, Unit]] = [{} for _ in range(self.width)]
         i = self.first - 1
         taken: dict[int, list[str]] = {}
         while i >= 0:
@@ -201,17 +201,15 @@ class Table:
                 is_units = self._is_units(cells)
                 for j, cell in enumerate(cells[: self.width]):
                     if unit := unit_of(cell) if is_units else unit_in(cell):
-                        stated[j][unit.symbol] = (i + 1, unit)
+                        stated[j][unit.symbol] = unit
                 if not is_units or len(taken) == 2:
                     self.names[: len(cells)] = cells[: self.width]
                     self.heading = i + 1
                     break
                 self.heading = i + 1
             i -= 1
-        for j, units in enumerate(stated):
-            if len(units) > 1:
-                self.fail(self.heading, f"column {j + 1} is in {' and in '.join(units)}; give units=us,N")
-        self.units = [next(iter(units.values()))[1] if units else None for units in stated]
+        self.conflicts = {j: " and ".join(units) for j, units in enumerate(stated) if len(units) > 1}
+        self.units = [next(iter(units.values())) if len(units) == 1 else None for units in stated]
         self._check_width(taken)
         self._read_metadata(taken)
 
@@ -220,6 +218,8 @@ class Table:
         if n_named < self.width and self.columns[-1] >= n_named and not self._is_paired:
             self.fail(self.first + 1, f"has {self.width} cells where the heading has {n_named}; if decimals begin with a comma, "
                       "give decimal=, and otherwise skip=N, the number of lines before the rows")
+        if not taken and self.separator == "," and len(self.columns) > 2 and "." not in self.lines[self.first]:
+            self.fail(self.first + 1, "has commas that may part cells or begin decimals; give decimal=, or write a heading")
 
     def _read_metadata(self, taken: dict[int, list[str]]) -> None:
         for i in range(min(self.first + 100, len(self.lines))):
@@ -228,7 +228,9 @@ class Table:
                 for cell in taken[i]:
                     self._note(*cell.partition("=")[::2])
                 continue
-            cells = [cell for j, cell in enumerate(self.cells(line)) if i < self.first or j < self.columns[0]]
+            cells = self.cells(line) if i < self.first else self.cells(line)[: self.columns[0]]
+            if self.separator == " " and i < self.first and len(parts := re.split(r"\s*[,;\t]\s*", line)) > 1:
+                cells = parts
             if i < self.first and (match := re.match(r"\s*([^:=,;\t]+?)\s*[:=]\s*(.*)", line)):
                 self._note(match[1], *filter(None, map(str.strip, re.split(r"[;\t]|,(?!\d)", match[2]))))
             elif cells:
