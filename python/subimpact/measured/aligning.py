@@ -66,7 +66,8 @@ def covariance_of(jacobian: Numbers, residuals: Numbers) -> Numbers:
     coloured = inverse @ (jacobian.T @ fftconvolve(jacobian, taper[:, None], "same", axes=0)) @ inverse
     with np.errstate(invalid="ignore", divide="ignore"):
         widening = np.sqrt(np.fmax(np.diag(coloured) / np.diag(white), 1.0))
-    return white * np.outer(widening, widening)
+    widened: Numbers = white * np.outer(widening, widening)
+    return widened
 
 
 def correlation(one: Numbers, other: Numbers) -> float:
@@ -236,7 +237,8 @@ class _Search:
 
         def residuals(free_values: Numbers) -> Numbers:
             shift, y, gain = whole(free_values)
-            return gain * self.filtered(y if low_pass is not None else None).at(times - shift) - forces
+            difference: Numbers = gain * self.filtered(y if low_pass is not None else None).at(times - shift) - forces
+            return difference
 
         def jacobian(free_values: Numbers) -> Numbers:
             shift, y, gain = whole(free_values)

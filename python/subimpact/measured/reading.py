@@ -107,7 +107,7 @@ class _Reading:
         if len(found) > 1 and len(named) != 1:
             self.table.fail(self.table.heading, f"has several columns of {what}: {self._all(found)}; give columns=T,F, the "
                             "numbers of that of the time and that of the force")
-        return (named or found or [None])[0]
+        return named[0] if named else found[0] if found else None
 
     def _find_force(self, stated: dict[int, Unit | None], units: list[Column]) -> int:
         table = self.table

@@ -177,6 +177,8 @@ class Table:
     def _heading_cells(self, line: str) -> list[str] | None:
         """The cells of a line that can name the columns, whatever separates them."""
         bare = self._bare(line)
+        if bare is not line and re.search("[:=]", bare):
+            return None
         for pattern in (None, ",", ";", "\t", r"\s{2,}", r"\s+(?![\[({])"):
             cells = self.cells(bare) if pattern is None else [c.strip() for c in re.split(pattern, bare.strip())]
             mine = [cells[j] for j in self.columns if j < len(cells)]
@@ -194,7 +196,8 @@ class Table:
         taken: dict[int, list[str]] = {}
         while i >= 0:
             cells = self._heading_cells(self.lines[i]) if self.lines[i].strip() else []
-            if cells is None:
+            if cells is None and self._bare(self.lines[i]) is self.lines[i]:
+                self._check_whole(i)
                 break
             if cells:
                 taken[i] = cells
@@ -212,6 +215,13 @@ class Table:
         self.units = [next(iter(units.values())) if len(units) == 1 else None for units in stated]
         self._check_width(taken)
         self._read_metadata(taken)
+
+    def _check_whole(self, i: int) -> None:
+        """Refuses a line above the first row that is a row with a broken number."""
+        cells = self.cells(self.lines[i])
+        if i == self.first - 1 and len(cells) == self.width and _NUMBER.fullmatch(cells[self.columns[0]]):
+            for j in self.columns:
+                self._number(cells[j], i + 1, j)
 
     def _check_width(self, taken: dict[int, list[str]]) -> None:
         n_named = max((len(cells) for cells in taken.values()), default=self.width)

@@ -1,0 +1,218 @@
+"""Measured forces: files of instruments, laid beside a run, fitted by a case."""
+
+import json
+import re
+import time
+
+import numpy as np
+import pytest
+from instrument_files import FORCES, PEAK, STEP, TIMES, all_files, rows
+from scipy.integrate import solve_ivp
+
+import subimpact as si
+from subimpact import measured
+
+FILES = list(all_files())
+
+
+@pytest.fixture(scope="module")
+def strike():
+    from conftest import ELASTIC
+
+    case = si.Case.from_text(ELASTIC).changed({"output.sections": [], "output.points": [], "output.shapes": 0.0,
+                                               "output.interval": 5e-7, "time.end": 1.8e-3})
+    return si.run(case, error_bars="off", model_errors=False)
+
+
+def curve(strike):
+    return np.array(strike.history["time_s"]), np.array(strike.history["force_N"])
+
+
+def filtered(strike, cutoff, at):
+    """Butterworth's filter of fourth order another way: by its differential equation."""
+    times, forces = curve(strike)
+    w, a, b = 2 * np.pi * cutoff, np.sqrt(4 + 2 * np.sqrt(2)), 2 + np.sqrt(2)
+
+    def rate(t, y):
+        return [w * y[1], w * y[2], w * y[3], w * (np.interp(t, times, forces, left=0) - y[0] - a * y[1] - b * y[2] - a * y[3])]
+
+    return solve_ivp(rate, (0, at[-1]), [0, 0, 0, 0], t_eval=at, max_step=0.05 / w, rtol=1e-9).y[0]
+
+
+def signal_of(strike, shift=0.0, cutoff=None, interval=1e-6, noise=0.0, factor=1.0, begin=-2e-4, end=1.8e-3, seed=1):
+    times, forces = curve(strike)
+    t = np.arange(begin, end, interval)
+    if cutoff is not None:
+        fine = np.unique(np.r_[times, t[t > 0]])
+        forces = measured.low_passed(fine, np.interp(fine, times, forces), cutoff)
+        times = fine
+    clean = np.interp(t, times, forces, left=0.0)
+    random = np.random.default_rng(seed).normal(size=len(t))
+    return measured.Signal(t + shift, factor * clean + noise * forces.max() * random)
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
+def test_an_instrument_s_file_is_read_with_its_units_and_sign(file, tmp_path):
+    path = tmp_path / file.name
+    path.write_bytes(file.content)
+    if file.refusal:
+        with pytest.raises(si.ResultsError) as refused:
+            measured.read(path)
+        message = str(refused.value)
+        assert message.startswith(str(path)) and file.refusal in message and "\n" not in message
+    signal = measured.read(path, **file.options)
+    assert len(signal.times) == file.n
+    expected = np.interp(signal.times - file.begin, np.array(TIMES) - TIMES[0], FORCES)
+    assert np.abs(signal.forces - expected).max() < file.accuracy * PEAK
+    assert signal.times[0] == pytest.approx(file.begin, abs=0.1 * STEP)
+    assert path.name in repr(signal) and signal.assumed
+
+
+REFUSED = {
+    "of two units": ("time [ms],force [N]\ns,N\n" + rows(1e6, 1), "units="),
+    "in megaseconds": ("time (MS),force (N)\n" + rows(1e6, 1), "units="),
+    "in kilograms": ("time_us,load_kg\n" + rows(1e6, 1), "units="),
+    "of two forces": ("time_us,F1 [N],F2 [N]\n" + rows(1e6, 1, after=",3.0"), "columns="),
+    "with commas of two meanings": ("time_us,force_N\n" + rows(1e6, 1, comma=True), "decimal=,"),
+    "with marks that part thousands or decimals": ("t [us];F [N]\n" + "".join(f"{i}.000;1.500\n" for i in range(100, 200)), "decimal="),
+    "of two records": ("time_us,force_N\n" + rows(1e6, 1) * 2, "rows="),
+    "with a broken number": ("time_us,force_N\n" + rows(1e6, 1).replace("-90.0000,0.0", "-90.0000,x0.0"), '"x0.0'),
+    "with an interval without unit": ("# dt = 2e-6\nforce_N\n" + "1.0\n" * 9, "interval="),
+    "in coulombs at volts": ("time_us,Q [pC]\n# sensitivity: 2 mV/N\n" + rows(1e6, 1), "sensitivity="),
+    "of a program": ("PK\3\4\0\0\0\0", "export it as CSV"),
+    "with a broken number at once": ("time_us,force_N\n" + rows(1e6, 1).replace("0.0000,0.0", "0.0000,x0.0", 1), '"x0.0'),
+    "of words": ("no numbers at all\n", "no rows of numbers"),
+}
+
+
+@pytest.mark.parametrize("why", REFUSED)
+def test_a_file_is_refused_with_what_helps(why, tmp_path):
+    text, remedy = REFUSED[why]
+    path = tmp_path / "force.csv"
+    path.write_text(text)
+    with pytest.raises(si.ResultsError, match=re.escape(remedy)) as refused:
+        measured.read(path)
+    assert "\n" not in str(refused.value)
+
+
+def test_no_unit_of_a_heading_is_read_as_another(tmp_path):
+    times, forces = {"s": 1, "ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}, {"N": 1, "kN": 1e-3, "MN": 1e-6, "mN": 1e3, "lbf": 1 / 4.4482216152605}
+    for heading in ("time [{}],force [{}]", "Zeit in {},Kraft in {}", "t/{},F/{}", "time_{},force_{}", '"time ({})","F ({})"', "{},{}"):
+        for time_unit, per_second in times.items():
+            for force_unit, per_newton in forces.items():
+                path = tmp_path / "force.csv"
+                path.write_text(heading.format(time_unit, force_unit) + "\n" + rows(per_second, per_newton, time_format="{:.9g}",
+                                                                                   force_format="{:.9g}"))
+                signal = measured.read(path)
+                assert signal.interval == pytest.approx(STEP, rel=1e-6), (heading, time_unit)
+                assert signal.forces.max() == pytest.approx(PEAK, rel=1e-6), (heading, force_unit)
+
+
+def test_a_million_samples_take_seconds(tmp_path):
+    path = tmp_path / "long.csv"
+    line = "".join(f"{{0}}{i:05d},{i % 97}.25\n" for i in range(100_000))
+    path.write_text("time_us,force_N\n" + "".join(line.replace("{0}", str(k + 1)) for k in range(10)))
+    begin = time.process_time()
+    assert len(measured.read(path).times) == 1_000_000
+    assert time.process_time() - begin < 6  # 1.4 s; the bar is 3
+
+
+def test_the_low_pass_is_the_filter_of_fourth_order_by_its_differential_equation(strike):
+    times, forces = curve(strike)
+    at = times[:900:7]
+    at = np.unique(at)
+    got = np.interp(at, times, measured.low_passed(times, forces, 20e3))
+    assert np.abs(got - filtered(strike, 20e3, at)).max() < 2e-5 * forces.max()
+
+
+@pytest.mark.parametrize("relative, loss", [(0.25, np.hypot(1, 0.25**4)), (1.0, np.sqrt(2)), (4.0, np.hypot(1, 256))])
+def test_the_low_pass_loses_three_decibels_at_the_cutoff(relative, loss):
+    times = 2.5e-7 * np.arange(40_000)
+    out = measured.low_passed(times, np.sin(2 * np.pi * 5e3 * relative * times), 5e3)
+    assert out[-8000:].max() == pytest.approx(1 / loss, rel=2e-4)
+
+
+@pytest.mark.parametrize("how", [
+    {"shift": 1.2345678e-3, "cutoff": 20e3, "noise": 0.003},
+    {"shift": -4.4421e-4, "cutoff": 20e3, "noise": 0.003, "factor": 1.05, "seed": 2},
+    {"shift": 0.7312346, "cutoff": 8e3, "interval": 2e-6, "noise": 0.003, "seed": 3},
+    # The record begins within the first contact and ends before the run does.
+    {"shift": 3.21e-5, "cutoff": 50e3, "noise": 0.01, "seed": 4, "begin": 5e-5, "end": 1.5e-3},
+    # The record is far longer than the run.
+    {"shift": 2.00007e-2, "cutoff": 30e3, "noise": 0.01, "seed": 5, "begin": -2e-2},
+])
+def test_shift_cutoff_and_gain_are_found_within_their_errors(strike, how):
+    found = measured.align(strike, signal_of(strike, **how), low_pass="find", gain="find")
+    for value, error, true, most in ((found.shift, found.shift_error, how["shift"], 0.5 * how.get("interval", 1e-6)),
+                                     (found.low_pass, found.low_pass_error, how["cutoff"], 0.05 * how["cutoff"]),
+                                     (found.gain, found.gain_error, how.get("factor", 1.0), 0.005)):
+        assert abs(value - true) < error < most
+    assert found.correlation > 0.99 and not found.at_bound and not found.doubt
+
+
+def test_forces_that_are_alike_differ_by_their_gain_alone(strike):
+    found = measured.align(strike, signal_of(strike, shift=1e-3, factor=1.25, interval=2.5e-7))
+    assert found.shift == pytest.approx(1e-3, abs=1e-8)
+    assert found.measured.peak / found.computed.peak == pytest.approx(1.25, rel=1e-4)
+    assert found.measured.impulse / found.computed.impulse == pytest.approx(1.25, rel=1e-4)
+    assert found.measured.contact == pytest.approx(found.computed.contact, rel=2e-3)
+    struck, after = strike.history["v_m_m_per_s"][[0, -1]]
+    assert found.computed.impulse == pytest.approx(0.201 * (struck - after), rel=1e-3)
+    assert "1.25" not in repr(found) and "-20 %" in repr(found)
+
+
+def test_neighbours_that_resemble_each_other_widen_the_error(strike):
+    white = signal_of(strike, noise=0.01)
+    noise = np.random.default_rng(1).normal(size=len(white.times) + 24)
+    alike = measured.Signal(white.times, signal_of(strike).forces
+                            + 0.01 * white.forces.max() * np.convolve(noise, np.ones(25) / 5, "valid"))
+    assert measured.align(strike, alike).shift_error > 1.5 * measured.align(strike, white).shift_error
+
+
+def test_what_cannot_be_laid_beside_each_other_is_refused_or_doubted(strike):
+    signal = signal_of(strike)
+    for wrong, words in ((lambda: measured.align(strike, signal, shift=1.0), "no time in common"),
+                         (lambda: measured.align(strike, measured.Signal(signal.times, -signal.forces)), "sign=-1")):
+        with pytest.raises(si.ResultsError, match=words):
+            wrong()
+    hum = measured.Signal(1e-6 * np.arange(2000), 100 * np.sin(0.02 * np.arange(2000)))
+    assert "correlation" in measured.align(strike, hum).doubt
+
+
+def test_a_fit_finds_two_keys_and_damping_from_zero(strike, elastic):
+    quick = elastic.changed({"time.end": 3e-4, "output.sections": [], "output.points": [], "output.shapes": 0.0})
+    signal = signal_of(strike, shift=1e-4, noise=0.01, end=3e-4)
+    found = measured.fit(quick.changed({"striker.velocity": 15.0, "contact.stiffness": 6e9}), signal,
+                         ["striker.velocity", "contact.stiffness"])
+    assert np.all(np.abs(found.values - [15.9, 5e9]) < 4 * found.errors)
+    assert np.all(found.errors < 0.02 * found.values)
+    assert found.correlation[0, 0] == pytest.approx(1) and abs(found.correlation[0, 1]) < 1
+    assert found.case["contact.stiffness"] == found.values[1] and "standard error" in repr(found)
+    damped = quick.changed({"contact.damping": 0.05, "solver.method": "erk", "output.interval": 1e-6})
+    signal = signal_of(si.run(damped, error_bars="off", model_errors=False), noise=0.01, end=3e-4)
+    found = measured.fit(damped.changed({"contact.damping": 0.0}), signal, "contact.damping")
+    assert abs(found.values[0] - 0.05) < 4 * found.errors[0] < 0.01
+
+
+@pytest.mark.parametrize("keys, words", [("contact.law", "a fit changes numbers"), ("speed", "no key"), ([], "one key or several"),
+                                         ("contact.yield_pressure", "likely one"), (["striker.mass"] * 2, "each once")])
+def test_a_fit_of_what_is_no_number_is_refused(elastic, strike, keys, words):
+    with pytest.raises(si.CaseError, match=words):
+        measured.fit(elastic, signal_of(strike), keys)
+
+
+def test_the_command_prints_and_writes_what_it_found(strike, tmp_path, python):
+    strike.write(tmp_path / "run")
+    signal = signal_of(strike, shift=1e-3, factor=1.01)
+    np.savetxt(tmp_path / "force.csv", np.c_[1e3 * signal.times, signal.forces], delimiter=",", header="t [ms],F [N]", comments="")
+    done = python("-m", "subimpact.measured", tmp_path / "run", "--measured", tmp_path / "force.csv")
+    output, errors = done.communicate()
+    assert done.returncode == 0 and errors == "" and re.search(r"shift +1000\.0", output) and "-0.99 %" in output
+    page = json.loads((tmp_path / "run/figures/measured.json").read_text())
+    assert [answer["name"] for answer in page["answers"]] == ["shift", "largest force", "impulse", "time in contact"]
+    assert page["doubt"] == "" and len(page["overlay"]) == 2
+    svg = (tmp_path / "run/figures/measured.svg").read_text()
+    assert len(svg) < 60_000 and "time of the run" in svg
+    for options, words in ((["--shift", "3"], "a time with its unit"), (["--low-pass=-2kHz"], "above 0"), (["--units", "parsec"], "units")):
+        done = python("-m", "subimpact.measured", tmp_path / "run", "--measured", tmp_path / "force.csv", *options)
+        assert words in done.communicate()[1] and done.returncode == 2
