@@ -1,6 +1,3 @@
-#include <cmath>
-
-#include "case/keys/units.h"
 #include "commands.h"
 #include "io/directory/listed_files.h"
 #include "python.h"
@@ -8,7 +5,6 @@
 #include "subimpact/io/results.h"
 #include "subimpact/report/pages.h"
 #include "subimpact/report/text.h"
-#include "subimpact/study/overlay.h"
 
 namespace subimpact::app {
 namespace {
@@ -19,7 +15,8 @@ struct FinishedRunOptions {
   std::vector<std::string> runs;
   std::string directory;
   std::string dygraphs;
-  std::string measured, shift, low_pass;
+  std::string measured;
+  std::vector<std::string> how_measured;  // one a row of `measured_options`
 
   const std::string& directory_or_first_run() const {
     return directory.empty() ? runs.front() : directory;
@@ -41,22 +38,40 @@ int plot(PlotOptions& options) {
   return run_python("subimpact.plot", arguments);
 }
 
-constexpr const char* find_cutoff = "find";
+struct PassedOption {
+  const char *name, *meaning;
+};
 
-std::optional<Overlay> overlay_with(const FinishedRun& run, const FinishedRunOptions& options) {
-  if (options.measured.empty()) return std::nullopt;
-  OverlayOptions how;
-  how.shift = value_in("s", options.shift);
-  how.find_low_pass = options.low_pass == find_cutoff;
-  how.low_pass = value_in("Hz", options.low_pass);
-  return overlay_of(run.result.history, read_signal(options.measured), how);
-}
+// Of subimpact.measured, which checks the values.
+constexpr PassedOption measured_options[] = {
+    {"--shift",
+     "By how much the measured time is later than that of the run, with its unit: -12.5us. "
+     "Default: found, where the two forces differ least"},
+    {"--low-pass",
+     "Cut-off of the transducer, with its unit: 20kHz; the computed force is filtered by a "
+     "Butterworth low-pass of fourth order. \"find\": the cut-off is found. Default: no filter"},
+    {"--gain", "Measured over true force, or \"find\". Default: 1"},
+    {"--columns", "Columns of time and force in the file, by number or name: 1,3"},
+    {"--units", "Units of time and force, where the file states none: us,kN"},
+    {"--scale", "What the force is multiplied by"},
+    {"--sign", "-1: the file has compression negative"},
+    {"--sensitivity", "Of a transducer in volts or coulombs: \"2.27 mV/N\""},
+    {"--mass", "Of the body whose acceleration was measured: \"201 g\""},
+    {"--interval", "Between samples, in place of a column of times: 1us"},
+    {"--skip", "Lines at the top of the file that are not read"},
+    {"--rows", "Rows of the file that are read. Default: all"},
+    {"--separator", "Of cells: \",\", \";\", tab or \" \". Default: found"},
+    {"--decimal", "\".\" or \",\". Default: found"}};
 
-void print_overlay(const Overlay& overlay) {
-  for (const auto& [name, value, note] : answers(overlay)) {
-    print("  {:<18}  {}\n{:22}{}\n", name, value, "", note);
+int compare_with_measured(const FinishedRunOptions& options, const fs::path& directory) {
+  std::vector<std::string> arguments = {"--measured=" + options.measured,
+                                        "--out=" + directory.string()};
+  for (std::size_t i = 0; i < std::size(measured_options); ++i) {
+    const std::string& value = options.how_measured[i];
+    if (!value.empty()) arguments.push_back(std::string(measured_options[i].name) + '=' + value);
   }
-  if (const std::string doubt = overlay_doubt(overlay); !doubt.empty()) print_warnings({doubt});
+  arguments.insert(arguments.end(), {"--", options.runs.front()});
+  return run_python("subimpact.measured", arguments);
 }
 
 int write_page(OutputDirectory& directory, const char* file, const std::string& page) {
@@ -69,13 +84,16 @@ int write_page(OutputDirectory& directory, const char* file, const std::string& 
 
 int report(const FinishedRunOptions& options) {
   const FinishedRun run = read_results(options.runs.front());
-  const std::optional<Overlay> overlay = overlay_with(run, options);
+  fs::path measured;
+  if (!options.measured.empty()) {
+    measured = fs::path(options.directory_or_first_run()) / "figures";
+    if (const int status = compare_with_measured(options, measured); status != done) return status;
+  }
   OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
   const DrawnFigures figures =
       read_figures(fs::path(options.runs.front()) / "figures", run.identity);
   write_page(directory, "report.html",
-             html_report(run, figures, options.dygraphs, overlay ? &*overlay : nullptr));
-  if (overlay) print_overlay(*overlay);
+             html_report(run, figures, options.dygraphs, measured));
   std::fflush(stdout);
   if (const std::string caveat = outcome_caveat(run.result); !caveat.empty()) {
     print_warnings({caveat});
@@ -155,16 +173,6 @@ void add_plot(CLI::App& program, int& status) {
       "what is needed; 3 a figure could not be drawn or written, the others are.");
 }
 
-bool is_finite_time(const std::string& text) {
-  const std::optional<double> seconds = value_in("s", text);
-  return seconds && std::isfinite(*seconds);
-}
-
-bool is_cutoff(const std::string& text) {
-  const std::optional<double> frequency = value_in("Hz", text);
-  return text == find_cutoff || (frequency && std::isfinite(*frequency) && *frequency > 0.0);
-}
-
 void add_report(CLI::App& program, int& status) {
   auto [command, options] =
       add_command(program, status, "report", "Write finished runs as one page of HTML", report_any);
@@ -181,26 +189,16 @@ void add_report(CLI::App& program, int& status) {
   command.add_option("--dygraphs", options.dygraphs,
                      "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
                      "Default: that of Debian's libjs-dygraphs");
-  CLI::Option* measured = command.add_option("--measured", options.measured,
-                                             "CSV file of a measured force, to compare with the "
-                                             "computed one; its heading has the units: "
-                                             "time_us,force_kN");
+  CLI::Option* measured = command.add_option(
+      "--measured", options.measured,
+      "File of a measured force as an instrument or a spreadsheet writes it, to compare with the "
+      "computed one. One that states what it holds needs no other option");
   measured->check(not_empty);
-  command
-      .add_option("--shift", options.shift,
-                  "By how much the measured time is later than that of the run, with its unit: "
-                  "-12.5us. Default: found, where the two forces correlate most")
-      ->needs(measured)
-      ->check(refused_unless(is_finite_time, "a time with its unit, such as 12.5us or -3ms"));
-  command
-      .add_option(
-          "--low-pass", options.low_pass,
-          "Cut-off of the transducer, with its unit: 20kHz; the computed force is filtered "
-          "by a Butterworth low-pass of fourth order. \"find\": the cut-off is found, where "
-          "the two forces correlate most. Default: no filter")
-      ->needs(measured)
-      ->check(
-          refused_unless(is_cutoff, "a frequency above 0 with its unit, such as 20kHz, or find"));
+  options.how_measured.resize(std::size(measured_options));
+  for (std::size_t i = 0; i < std::size(measured_options); ++i) {
+    const auto& [name, meaning] = measured_options[i];
+    command.add_option(name, options.how_measured[i], meaning)->needs(measured)->check(not_empty);
+  }
   command.footer(
       "report.html needs no other file and no network. In a browser it shows the beam moving, "
       "zoomable charts, force against indentation, a timeline with error bars and the table of "
@@ -214,8 +212,8 @@ void add_report(CLI::App& program, int& status) {
       "  subimpact plot out/first; subimpact report out/first\n"
       "  subimpact report out/first out/second --out out/both\n"
       "  subimpact report out/first --measured force.csv --low-pass 20kHz\n"
-      "Exit status: 0 done; 2 bad command line, files that no run has written, or a page that "
-      "cannot be written.");
+      "Exit status: 0 done; 2 bad command line, files that no run or instrument has written, or a "
+      "page that cannot be written; 3 the comparison with a measurement cannot be written.");
 }
 
 }  // namespace

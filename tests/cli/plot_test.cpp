@@ -99,7 +99,8 @@ TEST_F(ReportWithMeasurement, StatesShiftAndDifferencesAndShowsBothForces) {
   EXPECT_NEAR(number("largest force .* measured: ([-+0-9.]+) %"), -0.99, 0.06);
   EXPECT_NEAR(number("impulse .* measured: ([-+0-9.]+) %"), -0.99, 0.06);
   const std::string page = directory.read("here/report.html");
-  expect_in(page, "Compared with the measurement", "\"overlay\":[{");
+  expect_in(page, "Compared with the measurement", "\"overlay\":[{", "figure-measured");
+  EXPECT_TRUE(directory.has("here/figures/measured.svg"));
   run_in(directory, {"report", "here"});
   expect_not_in(directory.read("here/report.html"), "Compared with the measurement");
 }
@@ -111,6 +112,15 @@ TEST_F(ReportWithMeasurement, TakesAGivenShiftAndCutoff) {
             "1234.5 us", "20 kHz", "as given");
 }
 
+TEST_F(ReportWithMeasurement, PassesOnHowTheFileIsRead) {
+  std::string text = directory.read("force.csv");
+  directory.write("bare.csv", text.substr(text.find('\n') + 1));
+  expect_in(run_in(directory, {"report", "here", "--measured", "bare.csv", "--units", "us,kN",
+                               "--gain", "find"})
+                .output,
+            "gain", "1.01", "found");
+}
+
 TEST_F(ReportWithMeasurement, RefusesWithWhatIsAllowed) {
   const auto refusal = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"report", "here"});
@@ -119,7 +129,7 @@ TEST_F(ReportWithMeasurement, RefusesWithWhatIsAllowed) {
   };
   directory.write("without.csv", "time,force\n0,1\n");
   expect_in(refusal({"--measured", "none.csv"}), "none.csv: cannot be read (No such");
-  expect_in(refusal({"--measured", "without.csv"}), "unit of time (s, ms, us, ns, ps)");
+  expect_in(refusal({"--measured", "without.csv"}), "without.csv:1: states no unit of time", "units=us,N");
   expect_in(refusal({"--shift", "1us"}), "--measured");
   expect_in(refusal({"--measured", "force.csv", "--shift", "3"}), "a time with its unit");
   expect_in(refusal({"--measured", "force.csv", "--shift", "10 s"}), "no time in common");

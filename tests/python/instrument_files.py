@@ -83,6 +83,13 @@ def labview(comma=False, times=True):
     return text.replace(".\n", ",\n").replace(".", ",") if comma else text
 
 
+def labview_of_two():
+    """Channels of two units: a trigger in volts and the force."""
+    text = labview().replace("Y_Unit_Label\tN\t", "Y_Unit_Label\tV\tN").replace("X_Value\tForce", "X_Value\tTrigger\tLoad")
+    head, body = text.split("Comment\n")
+    return head + "Comment\n" + "".join(line.replace("\t", "\t5.0\t") + "\n" for line in body.splitlines())
+
+
 def scopy():
     lines = [f"{i},{t:.7g},{f * 2.27e-3:.6g},0.001,\n" for i, (t, f) in enumerate(zip(TIMES, FORCES))]
     return (";Scopy version,9a2a1c3\n;Exported on,Wed Mar 4 11:45:28 2020\n;Device,M2K\n;Nr of samples,400\n"
@@ -132,6 +139,7 @@ def all_files():
     yield File("labview.lvm", labview().encode())
     yield File("labview-comma.lvm", labview(comma=True).encode())
     yield File("labview-no-times.lvm", labview(times=False).encode())
+    yield File("labview-two.lvm", labview_of_two().encode())
     yield File("scopy.csv", scopy().encode(), {"columns": (2, 3), **in_volts}, "columns=")
     yield File("yokogawa.csv", yokogawa().encode())
     yield File("excel-german.csv", ("sep=;\r\n" + german).encode("cp1252"))
@@ -143,6 +151,7 @@ def all_files():
     yield File("units-in-second-row.csv", ("Run 7,rail,hammer\ntime,force,trigger\ns,N,\n" + rows(1, 1, time_format="{:.6f}", after=",0")).encode())
     yield File("blanks.dat", ("% hammer blow\n% t [us]   F [kN]\n" + rows(1e6, 1e-3, "   ", before="  ", force_format="{:.6f}")).encode())
     yield File("blanks-comma.dat", ("Time (us)  Force (N)\n" + rows(1e6, 1, "  ", comma=True)).encode())
+    yield File("scientific.tsv", ("time [s]\tF [N]\n" + rows(1, 1, "\t", time_format="{:.6e}", force_format="{:.3e}")).encode())
     yield File("gaps.csv", with_gaps().encode(), n=N - 5)
     yield File("repeated.tsv", repeated_times().encode(), n=N // 2, accuracy=0.02)
     yield File("negative.csv", ("time_us,force_N\n" + rows(1e6, -1)).encode(), {"sign": -1}, "sign=-1")

@@ -27,10 +27,6 @@ struct FinishedRun {
 /// that all are of one run and unchanged. Throws ResultsError.
 FinishedRun read_results(const std::filesystem::path& directory);
 
-/// Reads a measured force from a CSV file: a heading with the units of time and force at the ends
-/// of two of its names ("time_us,force_kN", "t [ms];F [N]"), separated by commas, semicolons or
-/// tabs, then numbers with decimal points, times increasing. Throws ResultsError.
-Signal read_signal(const std::filesystem::path& file);
 class LoadedCase;
 
 /// Makes a case continue the finished run in a directory, and returns that run with

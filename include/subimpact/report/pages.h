@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "subimpact/io/read_results.h"
-#include "subimpact/study/overlay.h"
 
 namespace subimpact {
 
@@ -30,11 +29,12 @@ DrawnFigures read_figures(const std::filesystem::path& directory, const std::str
 /// A run as a page. With scripts it shows the moving beam and panels that share one time; without
 /// scripts, or printed, it is a still report, with these figures. The library of the zoomable
 /// charts is read from `dygraphs` (empty: where Debian's libjs-dygraphs has it); without it the
-/// page lacks those charts and states how to get them. With `overlay` it has a section on a
-/// measured force.
+/// page lacks those charts and states how to get them. `measured`: a directory in which the Python
+/// module subimpact.measured has left measured.json and measured.svg, which get a section of their
+/// own; empty: none. Throws ResultsError for files there that cannot be read.
 std::string html_report(const FinishedRun& run, const DrawnFigures& figures = {},
                         const std::filesystem::path& dygraphs = {},
-                        const Overlay* overlay = nullptr);
+                        const std::filesystem::path& measured = {});
 
 /// Why pages have no zoomable charts; empty if they have.
 std::string why_no_charts(const std::filesystem::path& dygraphs);

@@ -11,7 +11,6 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
-#include "subimpact/study/overlay.h"
 #include "subimpact/study/refinement/forecast.h"
 #include "subimpact/study/sensitivity/sensitivity.h"
 
@@ -71,11 +70,6 @@ struct Answer {
 /// Who struck whom, how many sub-impacts and how certain, restitution, largest force, impulse by
 /// zone, dent, permanent set, energies that add up to the initial one, whether contact is over.
 std::vector<Answer> answers(const Case& input, const Result& result);
-
-/// How much a measured force and the computed one differ: shift, filter, peak and impulse.
-std::vector<Answer> answers(const Overlay& overlay);
-/// Why the overlay may mean nothing; empty if no reason was found.
-std::string overlay_doubt(const Overlay& overlay);
 
 /// The title, the answers and the warnings, one line each, wrapped at 100 columns. `verbose` adds
 /// mesh, method, errors by source, conservation and work.

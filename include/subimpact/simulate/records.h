@@ -74,10 +74,4 @@ struct ZoneSummary {
 };
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts);
 
-/// A force over time, linear between its points.
-struct Signal {
-  std::vector<double> times;   ///< s, not decreasing
-  std::vector<double> forces;  ///< N, as many
-};
-
 }  // namespace subimpact

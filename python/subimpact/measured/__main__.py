@@ -6,15 +6,19 @@ import argparse
 import json
 import math
 import os
-import re
 import sys
-from typing import Any, NoReturn
+from pathlib import Path
+from typing import NoReturn
 
-from .._errors import ResultsError
-from .._text import printable
+import matplotlib
+
+from .. import _core
+from .._errors import OutputError, ResultsError
+from .._text import path_text, printable
+from ..plot.directory import identity_of, save
 from ..result import read_results
-from . import align, read
-from .drawing import draw_all, packed
+from . import Alignment, align, read
+from .drawing import CAPTION, draw_all, packed
 from .units import value_in
 
 _DESCRIPTION = """Lays a measured force beside that of a run, prints how they differ, and writes measured.svg and
@@ -23,7 +27,7 @@ measured.json. A file that states what it holds needs no option; for others the 
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
-        super().error(printable(message))
+        self.exit(2, f"subimpact: {printable(message)}\n")
 
 
 def _time(text: str) -> float:
@@ -75,26 +79,23 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _write(directory: str, alignment: Any) -> None:
-    os.makedirs(directory, exist_ok=True)
-    figure = draw_all(alignment)
-    from ..plot.style import style
-
-    path = os.path.join(directory, "measured.svg")
-    with style():
-        figure.savefig(path, metadata={"Date": None})
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(re.sub(r"(\d\.\d\d)\d+", r"\1", text))  # hundredths of a point
-    page = {"answers": alignment.answers(), "doubt": alignment.doubt,
-            "overlay": [packed(side.times, side.forces) for side in (alignment.measured, alignment.computed)]}
-    with open(os.path.join(directory, "measured.json"), "w", encoding="utf-8") as file:
-        json.dump(page, file)
+def _write(run: str, directory: str, alignment: Alignment) -> list[str]:
+    """Writes what the page shows, and returns what there is to say. Raises OutputError."""
+    output = _core.OutputDirectory(path_text(directory, OutputError), "figures", 0.0, identity_of(Path(run)))
+    try:
+        save(draw_all(alignment), Path(output.staging) / "measured", ("svg",))
+        page = {"answers": alignment.answers(), "doubt": alignment.doubt, "caption": CAPTION,
+                "overlay": [packed(side.times, side.forces) for side in (alignment.measured, alignment.computed)]}
+        (Path(output.staging) / "measured.json").write_text(json.dumps(page) + "\n", encoding="utf-8")
+        output.commit()
+        return output.notes
+    finally:
+        output.close()
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Exit status: 0 done; 2 bad command line or files; 3 files cannot be written."""
+    matplotlib.use("Agg")
     options = vars(_parser().parse_args(arguments))
     how = {name: options.pop(name) for name in ("shift", "gain", "low_pass")}
     run, measured, out = (options.pop(name) for name in ("run", "measured", "out"))
@@ -105,13 +106,14 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     for answer in alignment.answers():
         print(f"  {answer['name']:<18}  {answer['value']}\n{'':22}{answer['note']}")
-    if alignment.doubt:
-        print(f"subimpact: warning: {alignment.doubt}", file=sys.stderr)
+    sys.stdout.flush()
     try:
-        _write(out or os.path.join(run, "figures"), alignment)
-    except OSError as error:
-        print(f"subimpact: {printable(str(error.filename))}: cannot be written ({error.strerror}); give --out another directory", file=sys.stderr)
+        notes = _write(run, out or os.path.join(run, "figures"), alignment)
+    except OSError as error:  # OutputError is one
+        print(printable(str(error)), file=sys.stderr)
         return 3
+    for note in [*([alignment.doubt] if alignment.doubt else []), *notes]:
+        print(f"subimpact: warning: {printable(note)}", file=sys.stderr)
     return 0
 
 

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     Numbers = npt.NDArray[np.float64]
 
+CAPTION = ("The measured force and the computed one on the time of the run, their difference (computed less measured), and both "
+           "about the largest force.")
 _MOST_ROWS = 22_000  # of a chart of the page
 
 
@@ -110,8 +112,8 @@ def draw_forces(a: Alignment, axes: Any = None) -> Any:
     return axes
 
 
-def draw_all(a: Alignment) -> Any:
-    """The figure of both forces, of their difference, and of the time about the largest force."""
+def draw_all(a: Alignment) -> list[Any]:
+    """Both forces, their difference, and both about the largest force: the panels of a figure."""
     import matplotlib.pyplot as plt
 
     from ..plot.style import GREY, WIDTH, legend_above, style
@@ -126,4 +128,4 @@ def draw_all(a: Alignment) -> Any:
         half = 0.03 * (a.end - a.begin)
         _draw(bottom, _forces(a, marker=".", markersize=3), max(a.begin, a.measured.peak_time - half),
               min(a.end, a.measured.peak_time + half))
-        return figure
+        return [top, middle, bottom]

@@ -138,12 +138,14 @@ class _Reading:
             return None
         return rest[0] if len(rest) == 1 and not self._is_index(rest[0]) else None
 
-    def _metadata(self, keys: tuple[str, ...]) -> str | None:
-        """The value of the first of these keys; of several channels that of the force."""
+    def _metadata(self, keys: tuple[str, ...], column: int | None = None) -> str | None:
+        """The value of the first of these keys; of several channels that of the column."""
         for key, values in self.table.metadata.items():
             if key in keys or any(len(name) > 6 and key.startswith(name) for name in keys):
-                value = values[0]
-                return re.sub(r"^[A-Za-z]\w*:\s*", "", value)
+                channels = [j for j in self.table.columns if j != self.time and not self._is_index(j)]
+                if column is not None and len(set(values)) > 1:
+                    values = values[channels.index(column):] if len(values) == len(channels) else [""]
+                return re.sub(r"^[A-Za-z]\w*:\s*", "", values[0])
         return None
 
     def _unit(self, column: int | None, given: Column | None, what: str) -> Unit | None:
@@ -156,7 +158,7 @@ class _Reading:
             return unit
         keys = (("horizontalunits", "hunit", "xunit", "xunitlabel", "timeunit") if what == "time" else
                 ("verticalunits", "vunit", "yunit", "yunitlabel", "forceunit", "unit"))
-        if (text := self._metadata(keys)) and (unit := unit_of(text)):
+        if (text := self._metadata(keys, column if what == "force" else None)) and (unit := unit_of(text)):
             return unit
         if what == "time" and self.table.maker:
             return unit_of("s")
@@ -199,7 +201,7 @@ class _Reading:
         assert unit is not None
         factor, kind, words = unit.factor, unit.kind, f"force: {where}, {unit.symbol}"
         if kind in ("voltage", "charge"):
-            text = sensitivity or self._metadata(("sensitivity", "empfindlichkeit"))
+            text = sensitivity or self._metadata(("sensitivity", "empfindlichkeit"), self.force)
             known: Sensitivity | None = sensitivity_of(text) if text else None
             if known is None or known.electrical != kind:
                 said = f"sensitivity is {text!r}, and {where}" if sensitivity else where

@@ -43,12 +43,13 @@ def _decoded(content: bytes, file: str) -> str:
         text = "\0" if codec else content.decode("cp1252", "replace")
     if "\0" in text[:2000]:
         raise ResultsError(f"{file}: is no text; allowed: CSV and other tables of numbers; export it as CSV")
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return re.sub(r"(?<=\d)[\u00a0\u202f](?=\d)", "", text) if "\u00a0" in text or "\u202f" in text else text
 
 
 def _is_grouped(text: str, mark: str) -> bool:
     """Whether every `mark` in the text can stand between thousands."""
-    numbers = re.findall(rf"[\d.,]*\{mark}[\d.,]*", text)
+    numbers = re.findall(rf"[\d.,]*\{mark}[\d.,]*[eE]?", text)
     return all(re.fullmatch(rf"[1-9]\d{{0,2}}(\{mark}\d{{3}})+([.,]\d*)?", number) for number in numbers)
 
 
@@ -66,10 +67,8 @@ class Table:
         self.maker = next((name for name in ("LabVIEW", "LECROY") if self.lines[0].startswith(name)), "")
         self.lines[:skip] = [""] * min(skip, len(self.lines))
         sample = self._sample()
-        self.separator = separator or self._separator_of(sample, decimal)  #: " " for blanks
-        self._is_paired = self.separator == decimal == ","
-        if self._is_paired and any('"' in line for line in sample):
-            self._is_paired = False
+        self.separator = separator or self._separator_of(sample)  #: " " for blanks
+        self._is_paired = self.separator == decimal == "," and not any('"' in line for line in sample)
         self.decimal = decimal or self._decimal_of(sample)
         self._find_columns(sample)
         self._find_rows(rows)
@@ -95,7 +94,7 @@ class Table:
         return sample
 
     @staticmethod
-    def _separator_of(sample: list[str], decimal: str | None) -> str:
+    def _separator_of(sample: list[str]) -> str:
         for separator, pattern in ((";", ";"), ("|", r"\|"), (",", r",[\s\",]|,$|^,"), ("\t", "\t"),
                                    (" ", r"^[^:]*[^:\s] +[^:\s][^:]*$")):
             if 2 * sum(bool(re.search(pattern, line.strip(" "))) for line in sample) > len(sample):
@@ -112,10 +111,9 @@ class Table:
         marks = [mark for mark in ".," if mark in text]
         if both := re.findall(r"\d([.,])\d+([.,])\d", text):
             return next((last for first, last in both if first != last), "," if both[0][0] == "." else ".")
-        whole = "\n".join(self.lines) if len(text) < 100_000 and marks else text
         plain = [mark for mark in marks if not _is_grouped(text, mark)]
-        if not plain and len(marks) == 1 and self.separator != " ":
-            body = "\n".join(line for line in whole.split("\n") if _NUMBERS_ONLY.fullmatch(line))
+        if marks and not plain:
+            body = "\n".join(filter(_NUMBERS_ONLY.fullmatch, self.lines))
             plain = [mark for mark in marks if not _is_grouped(body, mark)]
         if len(plain) > 1 or (marks and not plain):
             self.fail(None, f"cannot be told whether {' and '.join(map(repr, marks))} in its numbers begin decimals or part "
@@ -264,7 +262,7 @@ class Table:
         import pandas
 
         body = self.lines[self.first :]
-        if self.separator != "," or max(line.count(",") for line in body) < self.width:
+        if self.separator != "," or '"' in body[0] or max(line.count(",") for line in body) < self.width:
             try:
                 frame = pandas.read_csv(
                     io.StringIO("\n".join(body)), sep=r"\s+" if self.separator == " " else self.separator, header=None,

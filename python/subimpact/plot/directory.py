@@ -147,7 +147,8 @@ def _compact(svg: str) -> str:
                   + marks[2].replace(f' style="{marks[3]}"', "") + "</g>", svg)
 
 
-def _identity(directory: Path) -> str:
+def identity_of(directory: Path) -> str:
+    """Of the results in a directory; empty if there is none."""
     try:
         return str(json.loads((directory / "manifest.json").read_text(encoding="utf-8"))["identity"])
     except (OSError, ValueError, KeyError, TypeError):
@@ -174,10 +175,10 @@ def draw_directory(directory: str | os.PathLike[str], out: str | os.PathLike[str
     if unknown := [name for name in only if name not in figures]:
         raise ValueError(f"{', '.join(unknown)}: no figure of {source}; allowed: {', '.join(figures)}")
     target = Path(path_text(out if out is not None else source / "figures", OutputError))
-    identity = _identity(source)
+    identity = identity_of(source)
     output = _core.OutputDirectory(str(target), "figures", 0.0, identity)
     try:
-        known = _earlier(target) if identity and identity == _identity(target) else {}
+        known = _earlier(target) if identity and identity == identity_of(target) else {}
         captions: dict[str, str] = {}
         left_out: list[str] = []
         failed: list[str] = []

@@ -63,8 +63,8 @@ Json tiles(const std::vector<Answer>& all) {
   });
 }
 
-Json figure_list(const DrawnFigures& figures) {
-  return list_of(figures.drawn, [number = 0](const auto& figure) mutable -> Json {
+Json figure_list(const std::vector<DrawnFigures::Figure>& figures) {
+  return list_of(figures, [number = 0](const auto& figure) mutable -> Json {
     return {{"name", figure.name},
             {"svg", inlined_svg(figure.svg, figure.name)},
             {"number", ++number},
@@ -103,12 +103,39 @@ Json flights(const std::optional<ErrorEstimate>& estimate) {
   });
 }
 
+<<<<<<< HEAD
 // Whether an SVG file is a picture and nothing more: results may come from anywhere.
 bool is_still(const std::string& svg) {
   static const std::regex active(
       R"(<(script|foreignObject|iframe|image|a|style)\b|\son\w+\s*=|href\s*=\s*["'][^#]|url\((?!#)|<!ENTITY)",
       std::regex::icase);
   return svg.starts_with("<") && svg.find("<svg") != svg.npos && !std::regex_search(svg, active);
+=======
+/// What Python found of a measured force.
+struct Measured {
+  Json section = nullptr;  ///< of the page
+  Json forces = nullptr;   ///< for its chart
+  DrawnFigures::Figure figure;
+};
+
+Measured read_measured(const std::filesystem::path& directory) {
+  Measured measured;
+  if (directory.empty()) return measured;
+  const std::filesystem::path path = directory / "measured.json";
+  read_json(path, read_whole_file(path), "a comparison with a measurement", "report again",
+            [&](const auto& json) {
+              std::vector<Answer> found;
+              for (const auto& answer : json.at("answers")) {
+                found.push_back({answer.at("name"), answer.at("value"), answer.at("note")});
+              }
+              const std::string doubt = json.at("doubt");
+              measured.section = {{"answers", tiles(found)}, {"doubt", in_print(doubt)}};
+              measured.figure = {"measured", json.at("caption"),
+                                 read_whole_file(directory / "measured.svg")};
+              measured.forces = json.at("overlay");
+            });
+  return measured;
+>>>>>>> 42538edd (The comparison with a measurement is Python; the overlay of C++ goes)
 }
 
 }  // namespace
@@ -143,10 +170,14 @@ DrawnFigures read_figures(const std::filesystem::path& directory, const std::str
 }
 
 std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
-                        const std::filesystem::path& dygraphs, const Overlay* overlay) {
+                        const std::filesystem::path& dygraphs,
+                        const std::filesystem::path& measured) {
   const Result& result = run.result;
   const Scene& scene = run.input.scene;
-  const PageData data = page_data(run.input, result, overlay);
+  const Measured comparison = read_measured(measured);
+  std::vector<DrawnFigures::Figure> drawn = figures.drawn;
+  if (!measured.empty()) drawn.push_back(comparison.figure);
+  const PageData data = page_data(run.input, result, comparison.forces);
   const std::vector<Answer> all_answers = answers(run.input, result);
   std::string versions = run.program_version;
   for (const auto& [name, version] : run.libraries)
@@ -180,13 +211,11 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"cause", result.outcome.completed() ? "" : in_print(result.outcome.message)},
       {"warnings", result.warnings},
       {"tiles", tiles({all_answers.begin() + 1, all_answers.end()})},
-      {"measured", overlay != nullptr ? Json{{"answers", tiles(answers(*overlay))},
-                                             {"doubt", in_print(overlay_doubt(*overlay))}}
-                                      : Json(nullptr)},
+      {"measured", comparison.section},
       {"flights", flights(result.error_estimate)},
       {"summary", in_print(run_summary(run.input, result, true))},
-      {"figures", figure_list(figures)},
-      {"no_figures", figures.drawn.empty()},
+      {"figures", figure_list(drawn)},
+      {"no_figures", drawn.empty()},
       {"left_out", figures.left_out},
       {"numbers", list_of(scalars_of(run), [](const NamedScalar& scalar) -> Json {
          return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};

@@ -15,7 +15,6 @@
 
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
-#include "subimpact/study/overlay.h"
 
 namespace subimpact {
 
@@ -103,7 +102,7 @@ struct PageData {
 /// The data of a run. Columns are packed as above: a value is exact to 6e-8 of itself (f32) or
 /// of the largest of its column (i24). Of long histories the rows with the extremes of equal spans
 /// are kept, of many or fine shapes those at events and every n-th.
-PageData page_data(const Case& input, const Result& result, const Overlay* overlay = nullptr);
+PageData page_data(const Case& input, const Result& result, const Json& overlay = nullptr);
 
 /// The data of several runs for a page that compares them: named columns of their histories.
 std::string comparison_data(const std::vector<std::string>& names,

@@ -202,27 +202,13 @@ Json unit_json(double end) {
   return {{"name", unit.name == "us" ? "µs" : unit.name}, {"per_second", unit.per_si}};
 }
 
-// With the largest and smallest values of each span, where there are too many.
-Json signal_json(const Signal& signal) {
-  struct Sample {
-    double time, force;
-  };
-  RowThinning<Sample> rows(signal.times.size(), 1, {&Sample::force}, most_history_rows);
-  for (std::size_t i = 0; i < signal.times.size(); ++i) {
-    rows.add({signal.times[i], signal.forces[i]});
-  }
-  const std::vector<Sample> kept = rows.take();
-  return {{"time_s", packed<double>(kept, &Sample::time)},
-          {"force_N", packed<float>(kept, &Sample::force)}};
-}
-
 std::string_view name_of(EndSupport end) {
   return end == EndSupport::free ? "free" : end == EndSupport::pinned ? "pinned" : "clamped";
 }
 
 }  // namespace
 
-PageData page_data(const Case& input, const Result& result, const Overlay* overlay) {
+PageData page_data(const Case& input, const Result& result, const Json& overlay) {
   const Beam& beam = input.scene.beam;
   PageData data;
   const std::vector<HistoryRow> history = thinned(result.history, most_history_rows);
@@ -271,9 +257,7 @@ PageData page_data(const Case& input, const Result& result, const Overlay* overl
                [](const PlasticZone& zone) -> Json {
                  return {{"from", zone.from}, {"to", zone.to}, {"rotation", zone.rotation}};
                })},
-      {"overlay", overlay != nullptr ? Json::array({signal_json(overlay->measured.force),
-                                                    signal_json(overlay->computed.force)})
-                                     : Json(nullptr)},
+      {"overlay", overlay},
       {"history", history_json(history)},
       {"meanings", meanings_of_columns()}};
   add_shapes(json, data, input, result);
