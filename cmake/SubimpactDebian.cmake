@@ -73,7 +73,7 @@ subimpact_debian_package(library libsubimpact-dev
 subimpact_debian_package(python python3-subimpact
   "This package has the Python package, and the command subimpact-sweep.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-subimpact, libjs-dygraphs")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-scipy, python3-matplotlib")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)

@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* remedy =
-    "this command needs Python with NumPy, pandas, Matplotlib and the package subimpact (Debian: "
-    "apt-get install python3-pandas python3-matplotlib); SUBIMPACT_PYTHON_EXECUTABLE names another "
-    "interpreter";
+    "this command needs Python with NumPy, pandas, SciPy, Matplotlib and the package subimpact "
+    "(Debian: apt-get install python3-pandas python3-scipy python3-matplotlib); "
+    "SUBIMPACT_PYTHON_EXECUTABLE names another interpreter";
 
 // Arguments: the remedy, the module and its own arguments. As `python -m`, but that modules in the
 // working directory are not taken for others, and that a missing one is no traceback.

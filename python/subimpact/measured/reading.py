@@ -152,9 +152,10 @@ class _Reading:
         """The unit of a column: as given, by the heading, or by the metadata."""
         if column is None:
             return None
-        if given is not None:
-            return self._given_unit(given)
-        if unit := self.table.units[column]:
+        if unit := self._given_unit(given) if given is not None else self.table.units[column]:
+            if what == "time" and unit.kind != "time":
+                self.table.fail(self.table.heading or None, f"{self._label(column)} is in {unit.symbol}, no unit of time; give "
+                                "columns=T,F, the numbers of that of the time and that of the force, and units=us,N in this order")
             return unit
         keys = (("horizontalunits", "hunit", "xunit", "xunitlabel", "timeunit") if what == "time" else
                 ("verticalunits", "vunit", "yunit", "yunitlabel", "forceunit", "unit"))
