@@ -18,7 +18,7 @@ from .._text import path_text, printable
 from ..plot.directory import identity_of, save
 from ..result import read_results
 from . import Alignment, align, read
-from .drawing import CAPTION, draw_all, packed
+from .drawing import draw_all, packed
 from .units import value_in
 
 _DESCRIPTION = """Lays a measured force beside that of a run, prints how they differ, and writes measured.svg and
@@ -84,7 +84,7 @@ def _write(run: str, directory: str, alignment: Alignment) -> list[str]:
     output = _core.OutputDirectory(path_text(directory, OutputError), "figures", 0.0, identity_of(Path(run)))
     try:
         save(draw_all(alignment), Path(output.staging) / "measured", ("svg",))
-        page = {"answers": alignment.answers(), "doubt": alignment.doubt, "caption": CAPTION,
+        page = {"answers": alignment.answers(), "doubt": alignment.doubt, "caption": " ".join((draw_all.__doc__ or "").split()),
                 "overlay": [packed(side.times, side.forces) for side in (alignment.measured, alignment.computed)]}
         (Path(output.staging) / "measured.json").write_text(json.dumps(page) + "\n", encoding="utf-8")
         output.commit()

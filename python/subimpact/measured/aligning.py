@@ -11,6 +11,7 @@ import numpy as np
 from .._errors import ResultsError
 from ..result import Result
 from .reading import Signal
+from .words import answers_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -156,8 +157,6 @@ class Alignment:
 
     def answers(self) -> list[dict[str, str]]:
         """Names, values and notes, in words."""
-        from .drawing import answers_of
-
         return answers_of(self)
 
     def __repr__(self) -> str:

@@ -16,6 +16,7 @@ from ..result import Result
 from ..running import run
 from .aligning import Alignment, align, covariance_of, curve_of
 from .reading import Signal
+from .words import rounded
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -40,8 +41,6 @@ class Fit:
     n_runs: int
 
     def __repr__(self) -> str:
-        from .drawing import rounded
-
         lines = []
         for key, value, error, others in zip(self.keys, self.values, self.errors, self.correlation):
             scale = 10.0 ** (3 * math.floor(math.log10(abs(value)) / 3)) if value else 1.0
