@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 import subimpact as si
 from subimpact import measured
+from subimpact.measured.__main__ import main
 
 FILES = list(all_files())
 
@@ -213,6 +214,16 @@ def test_the_command_prints_and_writes_what_it_found(strike, tmp_path, python):
     assert page["doubt"] == "" and len(page["overlay"]) == 2
     svg = (tmp_path / "run/figures/measured.svg").read_text()
     assert len(svg) < 60_000 and "time of the run" in svg
-    for options, words in ((["--shift", "3"], "a time with its unit"), (["--low-pass=-2kHz"], "above 0"), (["--units", "parsec"], "units")):
-        done = python("-m", "subimpact.measured", tmp_path / "run", "--measured", tmp_path / "force.csv", *options)
-        assert words in done.communicate()[1] and done.returncode == 2
+
+
+@pytest.mark.parametrize("options, words", [(["--shift", "3"], "a time with its unit"), (["--low-pass=-2kHz"], "above 0"),
+                                            (["--units", "parsec"], "units"), (["--scale", "0"], "other than 0")])
+def test_the_command_refuses_in_one_line(strike, tmp_path, capsys, options, words):
+    strike.write(tmp_path / "run")
+    (tmp_path / "force.csv").write_text("1,2\n2,3\n3,4\n")
+    try:
+        status = main([str(tmp_path / "run"), "--measured", str(tmp_path / "force.csv"), *options])
+    except SystemExit as stop:
+        status = stop.code
+    message = capsys.readouterr().err
+    assert status == 2 and words in message and message.count("\n") == 1
