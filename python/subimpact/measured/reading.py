@@ -172,7 +172,7 @@ class _Reading:
     def times(self, n: int, interval: str | None) -> tuple[npt.NDArray[np.float64], str]:
         """Times by start and increment, and how they are known."""
         if interval is not None:
-            step = value_in("time", interval)
+            step = value_in("time", str(interval))
             if step is None or not step > 0.0:
                 raise ResultsError(f"interval is {interval!r}; allowed: a time above 0 with its unit, such as interval=1us")
             return step * np.arange(n), "interval as given"
@@ -203,7 +203,7 @@ class _Reading:
         factor, kind, words = unit.factor, unit.kind, f"force: {where}, {unit.symbol}"
         if kind in ("voltage", "charge"):
             text = sensitivity or self._metadata(("sensitivity", "empfindlichkeit"), self.force)
-            known: Sensitivity | None = sensitivity_of(text) if text else None
+            known: Sensitivity | None = sensitivity_of(str(text)) if text else None
             if known is None or known.electrical != kind:
                 said = f"sensitivity is {text!r}, and {where}" if sensitivity else where
                 table.fail(table.heading or None, f"{said} is in {unit.symbol}; give sensitivity=\"2.27 mV/N\", what the transducer "
