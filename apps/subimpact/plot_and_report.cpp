@@ -92,8 +92,7 @@ int report(const FinishedRunOptions& options) {
   OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
   const DrawnFigures figures =
       read_figures(fs::path(options.runs.front()) / "figures", run.identity);
-  write_page(directory, "report.html",
-             html_report(run, figures, options.dygraphs, measured));
+  write_page(directory, "report.html", html_report(run, figures, options.dygraphs, measured));
   std::fflush(stdout);
   if (const std::string caveat = outcome_caveat(run.result); !caveat.empty()) {
     print_warnings({caveat});

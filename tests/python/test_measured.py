@@ -72,6 +72,8 @@ def test_an_instrument_s_file_is_read_with_its_units_and_sign(file, tmp_path):
 REFUSED = {
     "of two units": ("time [ms],force [N]\ns,N\n" + rows(1e6, 1), "units="),
     "in megaseconds": ("time (MS),force (N)\n" + rows(1e6, 1), "units="),
+    "in millionths of a second": ("time x10^-6 s,force [N]\n" + rows(1e6, 1), "units="),
+    "of one column with decimal commas": ("rate [kHz];500\nKraft [N]\n" + "12,5\n13,5\n" * 9, "decimal=,"),
     "in kilograms": ("time_us,load_kg\n" + rows(1e6, 1), "units="),
     "of two forces": ("time_us,F1 [N],F2 [N]\n" + rows(1e6, 1, after=",3.0"), "columns="),
     "with commas of two meanings": ("time_us,force_N\n" + rows(1e6, 1, comma=True), "decimal=,"),

@@ -132,8 +132,8 @@ class _Reading:
         """A column of times whose unit is not in the heading, unless the metadata have the interval."""
         rest = [j for j in self.table.columns if j < self.force and self.table.units[j] is None]
         named = [j for j in rest if _TIME.match(self.table.names[j])]
-        if len(named) == 1:
-            return named[0]
+        if named:
+            return named[-1]  # of LabVIEW's pairs that of the force
         if self._metadata(_INCREMENTS + _RATES) and (len(rest) != 1 or self._is_index(rest[0])):
             return None
         return rest[0] if len(rest) == 1 and not self._is_index(rest[0]) else None
@@ -142,7 +142,8 @@ class _Reading:
         """The value of the first of these keys; of several channels that of the column."""
         for key, values in self.table.metadata.items():
             if key in keys or any(len(name) > 6 and key.startswith(name) for name in keys):
-                channels = [j for j in self.table.columns if j != self.time and not self._is_index(j)]
+                channels = [j for j in self.table.columns if j != self.time and not self._is_index(j)
+                            and not _TIME.match(self.table.names[j])]
                 if column is not None and len(set(values)) > 1:
                     values = values[channels.index(column):] if len(values) == len(channels) else [""]
                 return re.sub(r"^[A-Za-z]\w*:\s*", "", values[0])

@@ -184,7 +184,7 @@ class Table:
                 return None
             if len(mine) == len(self.columns) and any(mine):
                 return cells
-        return self.cells(bare) if bare is line and len(self.cells(bare)) > 1 else None
+        return self.cells(bare) if bare is line and (len(self.cells(bare)) > 1 or unit_in(bare)) else None
 
     def _read_heading(self) -> None:
         self.heading = 0  #: number of its line; 0: none

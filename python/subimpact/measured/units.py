@@ -76,7 +76,9 @@ def unit_in(name: str) -> Unit | None:
     if channel := re.fullmatch(r"CH\d(m?V)", name.strip()):
         return unit_of(channel[1])
     words = re.split(r"[\s_,:;-]+", name.strip())
-    return None if len(words) < 2 or "per" in words[:-1] else unit_of(words[-1])
+    if len(words) < 2 or "per" in words or re.fullmatch(r"[x*]?\d[\d.^eE+]*", words[-2]):  # "v_m_per_s", "10^-6 s"
+        return None
+    return unit_of(words[-1])
 
 
 def quantity(text: str) -> tuple[float, str] | None:
