@@ -128,11 +128,9 @@ TEST_F(ReportWithMeasurement, RefusesWithWhatIsAllowed) {
     return finished.errors;
   };
   directory.write("without.csv", "time,force\n0,1\n");
-  expect_in(refusal({"--measured", "none.csv"}), "none.csv: cannot be read (No such");
   expect_in(refusal({"--measured", "without.csv"}), "without.csv:1: states no unit of time",
             "units=us,N");
   expect_in(refusal({"--shift", "1us"}), "--measured");
-  expect_in(refusal({"--measured", "force.csv", "--shift", "3"}), "a time with its unit");
   expect_in(refusal({"--measured", "force.csv", "--shift", "10 s"}), "no time in common");
   expect_in(refusal({"--measured", "force.csv", "--low-pass", "-2kHz"}), "a frequency above 0");
   expect_in(refusal({"here", "--measured", "force.csv", "--out", "both"}), "one run");

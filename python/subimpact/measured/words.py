@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .aligning import Alignment
 
+_MOST_DECIMALS = 6
+
 
 def rounded(value: float, error: float | None, unit: str) -> str:
     """With the digits that the error allows."""
     if not error or not math.isfinite(error):
         return f"{value:.6g} {unit}"
-    decimals = min(max(1 - math.floor(math.log10(error)), 0), 9)
-    return f"{value:.{decimals}f} +- {error:.{decimals}f} {unit}"
+    decimals = min(max(1 - math.floor(math.log10(error)), 0), _MOST_DECIMALS)
+    return f"{value:.{decimals}f} +- {max(error, 10.0**-decimals):.{decimals}f} {unit}"
 
 
 def _difference(name: str, computed: float, measured: float, unit: str, note: str) -> dict[str, str]:
