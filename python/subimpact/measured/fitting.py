@@ -68,8 +68,9 @@ def _range(key: str) -> tuple[float, float]:
 def _start(case: Case, keys: Sequence[str]) -> dict[str, float]:
     known, start = all_keys(), {}
     for key in keys:
-        numbers = ", ".join(name for name in known if known[name].type == "number" and name.startswith(("beam.", "striker.", "contact.")))
         if key not in known or known[key].type != "number":
+            numbers = ", ".join(name for name in known if known[name].type == "number"
+                                and name.startswith(("beam.", "striker.", "contact.")))
             what = f"is {known[key].allowed}" if key in known else "is no key"
             raise CaseError(f"{key} {what}, and a fit changes numbers; allowed: {numbers}", key)
         value = case[key]
@@ -117,7 +118,7 @@ class _Runs:
             self.n += 1
             if result.interrupted:
                 raise KeyboardInterrupt
-            if not result.usable and len(result.history) < 2:
+            if result.outcome not in ("completed", "inaccurate"):
                 where = ", ".join(f"{key} = {value:.6g}" for key, value in values.items())
                 raise ResultsError(f"the run with {where} ended {result.outcome}: {result.message}; begin elsewhere, or give bounds")
             self._kept = {**dict(list(self._kept.items())[-8:]), at: result}
