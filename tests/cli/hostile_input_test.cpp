@@ -167,8 +167,8 @@ TEST(StandardOutput, ThatCannotBeWrittenEndsEveryCommandWithStatus3) {
   make_run(directory, "run");
   for (const std::string command :
        {"--help", "--version", "keys", "keys --schema", "methods", "columns", "explain case.toml",
-        "run case.toml --set time.end=1e-5 --set model.segments=21 --out other", "plot run",
-        "report run"}) {
+        "run case.toml --set time.end=1e-5 --set model.segments=21 --out other",
+        "plot run --only timeline --format svg", "report run"}) {
     EXPECT_EQ(shell("subimpact " + command + " > /dev/full 2> errors", directory.path), 3)
         << command;
     const std::string errors = directory.read("errors");

@@ -4,6 +4,8 @@
 
 #include "environment.h"
 #include "process.h"
+#include "subimpact/io/output_directory.h"
+#include "subimpact/io/read_results.h"
 
 namespace subimpact {
 namespace {
@@ -37,6 +39,17 @@ TEST_F(Report, IsOnePageBesideTheRun) {
   const std::string page = directory.read("here/report.html");
   expect_in(page, "<!DOCTYPE html>", "</html>");
   EXPECT_FALSE(directory.has("here/figures"));
+}
+
+TEST_F(Report, HasNoFiguresOfTheRunBefore) {
+  const std::filesystem::path place = directory.path / "here/figures";
+  {
+    OutputDirectory figures(place, "figures", read_results(directory.path / "here").identity);
+    std::ofstream(figures.staging() / "timeline.svg") << "<svg/>";
+    figures.commit();
+  }
+  run_in(directory, paper("run", {"time.end=1e-4", "model.segments=51"}, {"--out", "here"}));
+  EXPECT_FALSE(std::filesystem::exists(place / "timeline.svg"));
 }
 
 TEST_F(Report, OfSeveralRunsComparesThemInADirectoryOfItsOwn) {
@@ -92,9 +105,11 @@ TEST_F(ReportWithMeasurement, StatesShiftAndDifferencesAndShowsBothForces) {
   expect_not_in(directory.read("here/report.html"), "Compared with the measurement");
 }
 
-TEST_F(ReportWithMeasurement, TakesAGivenShiftAndCutoff) {
-  expect_in(run_in(directory, {"report", "here", "--measured", "force.csv", "--shift", "1.2345ms",
-                               "--low-pass", "20kHz"})
+TEST_F(ReportWithMeasurement, TakesAGivenShiftAndCutoffAndHowTheFileIsRead) {
+  const std::string text = directory.read("force.csv");
+  directory.write("bare.csv", text.substr(text.find('\n') + 1));
+  expect_in(run_in(directory, {"report", "here", "--measured", "bare.csv", "--shift", "1.2345ms",
+                               "--low-pass", "20kHz", "--units", "us,kN"})
                 .output,
             "1234.5 us", "20 kHz", "as given");
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 
@@ -15,6 +16,19 @@ from .directory import FORMATS, draw_directory
 
 def _say(text: str) -> None:
     print(printable(text), file=sys.stderr)
+
+
+def _print(text: str) -> bool:
+    """Whether stdout takes the text; a reader who has left needs none."""
+    try:
+        print(text, end="", flush=True)
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # for what is flushed at the end
+        if not isinstance(error, BrokenPipeError):
+            _say(f"subimpact: standard output cannot be written ({error.strerror}); free the disk or write the "
+                 "output elsewhere")
+            return False
+    return True
 
 
 def _listed(text: str) -> list[str]:
@@ -43,11 +57,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     except KeyboardInterrupt:
         return 130
-    for name, caption in drawn.captions.items():
-        print(", ".join(f"{name}.{ending}" for ending in options.format) + f"\n    {caption}")
-    if drawn.captions:
-        print(f"\nfigures in {printable(drawn.directory)}")
-    sys.stdout.flush()
+    lines = [", ".join(f"{name}.{ending}" for ending in options.format) + f"\n    {caption}\n"
+             for name, caption in drawn.captions.items()]
+    if lines:
+        lines.append(f"\nfigures in {printable(drawn.directory)}\n")
+    if not _print("".join(lines)):
+        return 3
     for note in drawn.notes:
         _say(f"subimpact: warning: {note}")
     for reason in drawn.left_out:

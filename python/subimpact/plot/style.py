@@ -101,7 +101,7 @@ def marks_of(source: Any) -> list[str]:
         return []
     marks = []
     if source.outcome != "completed":
-        marks.append(f"{source.outcome.replace('_', ' ')} at {1e3 * source.time:.6g} ms")
+        marks.append(f"{source.outcome.replace('_', ' ').replace('-', ' ')} at {1e3 * source.time:.6g} ms")
         if source.first_failure is not None:
             first, last = (1e6 * time for time in source.first_failure)
             marks.append(f"first failure between {first:.6g} and {last:.6g} µs")

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <regex>
 
 #include "case/counted.h"
 #include "io/directory/listed_files.h"
@@ -102,6 +103,14 @@ Json flights(const std::optional<ErrorEstimate>& estimate) {
   });
 }
 
+// Whether an SVG file is a picture and nothing more: results may come from anywhere.
+bool is_still(const std::string& svg) {
+  static const std::regex active(
+      R"(<(script|foreignObject|iframe|image|a|style)\b|\son\w+\s*=|href\s*=\s*["'][^#]|url\((?!#)|<!ENTITY)",
+      std::regex::icase);
+  return svg.starts_with("<") && svg.find("<svg") != svg.npos && !std::regex_search(svg, active);
+}
+
 /// What Python found of a measured force.
 struct Measured {
   Json section = nullptr;  ///< of the page
@@ -141,21 +150,21 @@ DrawnFigures read_figures(const std::filesystem::path& directory, const std::str
     return listed != manifest->files.end() && fingerprint_of(directory / name) == listed->second;
   };
   if (!is_as_drawn(list)) return figures;
-  read_json(
-      directory / list, read_whole_file(directory / list), "a list of figures", "",
-      [&](const auto& json) {
-        for (const auto& entry : json.at("figures")) {
-          const std::string name = entry.at("name"), file = name + ".svg";
-          if (is_as_drawn(file)) {
-            figures.drawn.push_back({name, entry.at("caption"), read_whole_file(directory / file)});
-          } else {
-            figures.left_out.push_back(name + ": has no SVG file, or one that was changed");
-          }
-        }
-        for (const std::string reason : json.at("left_out")) {
-          figures.left_out.push_back(reason);
-        }
-      });
+  read_json(directory / list, read_whole_file(directory / list), "a list of figures", "",
+            [&](const auto& json) {
+              for (const auto& entry : json.at("figures")) {
+                const std::string name = entry.at("name"), file = name + ".svg";
+                const std::string svg = is_as_drawn(file) ? read_whole_file(directory / file) : "";
+                if (is_still(svg)) {
+                  figures.drawn.push_back({name, entry.at("caption"), svg});
+                } else {
+                  figures.left_out.push_back(name + ": has no SVG file, or one that was changed");
+                }
+              }
+              for (const std::string reason : json.at("left_out")) {
+                figures.left_out.push_back(reason);
+              }
+            });
   return figures;
 }
 

@@ -108,11 +108,12 @@ TEST(FiguresOfARun, AreThoseThatWereDrawnOfItAndNotChangedSince) {
   {
     OutputDirectory files(directory.path, "figures", "1");
     const std::string list =
-        R"({"figures": [{"name": "a", "caption": "A."}, {"name": "b", "caption": "B."}],
-            "left_out": ["c: no data"], "failed": []})";
+        R"({"figures": [{"name": "a", "caption": "A."}, {"name": "b", "caption": "B."},
+                        {"name": "active", "caption": "C."}], "left_out": ["c: no data"], "failed": []})";
     for (const auto& [name, text] : {std::pair<std::string, std::string>("figures.json", list),
                                      {"a.svg", "<svg/>"},
-                                     {"b.svg", "<svg/>"}}) {
+                                     {"b.svg", "<svg/>"},
+                                     {"active.svg", "<svg onload='run()'/>"}}) {
       std::ofstream(files.staging() / name) << text;
     }
     files.commit();
@@ -124,7 +125,7 @@ TEST(FiguresOfARun, AreThoseThatWereDrawnOfItAndNotChangedSince) {
   const DrawnFigures figures = read_figures(directory.path, "1");
   ASSERT_EQ(figures.drawn.size(), 1u);
   EXPECT_EQ(figures.drawn[0].caption, "A.");
-  EXPECT_EQ(figures.left_out.size(), 2u);
+  EXPECT_EQ(figures.left_out.size(), 3u);
 }
 
 TEST(HtmlReport, ListsEveryNumberOfTheSummary) {
