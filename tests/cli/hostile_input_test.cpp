@@ -126,7 +126,7 @@ TEST(ImpossibleResults, AreRefusedWithFileLineAndValue) {
       {"events.csv", "\n1,1,1,0,,", "\n1,1,1,2,1,", "events.csv:2: end_s is 1; "},
       {"history.csv", "\n0,", "\n5,", "history.csv:3: time_s is 0; allowed: "},
       {"history.csv", "\n0,", "\n-1,", "history.csv:2: time_s is -1; allowed: "},
-      {"sections.csv", "\n0,", "\n0,inf,1,1,1\n0,", "sections.csv:2: position_m is \"inf\"; "},
+      {"sections.csv", "\n0,", "\n0,inf,1,1,1,1\n0,", "sections.csv:2: position_m is \"inf\"; "},
       {"transitions.csv", "\n0,", "\ninf,", "transitions.csv:2: time_s is \"inf\"; allowed: "},
       {"transitions.csv", "\n0,contact_begins,,", "\n0,contact_begins,-1,",
        "transitions.csv:2: section is \"-1\"; "},

@@ -93,25 +93,44 @@ double magnitude(const EnvelopeRow::Range& range) {
   return std::max(std::abs(range.largest.value), std::abs(range.smallest.value));
 }
 
-// By how much the largest magnitude of another place may exceed that of the run, if it is as far
-// off as runs beside are there: `errors_over_difference` their factor.
-double excess_elsewhere(const Result& run, std::span<const RunBeside> beside, double largest,
-                        EnvelopeRow::Range EnvelopeRow::*range, double safety) {
+constexpr double near = 1.0 / 16.0;            // of the length, to either side
+constexpr double between_points = 1.0 / 32.0;  // by which points of two meshes may be apart
+constexpr double safety_of_first_order = 1.5;
+constexpr double largest_gain_of_first_order = 2.0;
+
+// The largest magnitude near a place; runs have their points at different ones.
+double largest_near(const Result& run, double position, double width,
+                    EnvelopeRow::Range EnvelopeRow::*range) {
+  const auto from =
+      std::ranges::lower_bound(run.envelope, position - width, {}, &EnvelopeRow::position);
+  double largest = 0.0;
+  for (auto row = from; row != run.envelope.end() && row->position <= position + width; ++row) {
+    largest = std::max(largest, magnitude((*row).*range));
+  }
+  return largest;
+}
+
+// By how much another place of the beam may exceed the largest magnitude of the run: as far off as
+// the coarsest mesh shows it there, to first order, as a moment under a point force converges.
+double excess_elsewhere(const Case& input, const Result& run, std::span<const RunBeside> beside,
+                        double largest, EnvelopeRow::Range EnvelopeRow::*range) {
+  const auto count = [](const RunBeside& other) { return mesh_count(other.of.input); };
+  const auto coarsest = std::ranges::min_element(beside, {}, count);
+  if (coarsest == beside.end() || run.envelope.empty()) return 0.0;
+  const double ratio = static_cast<double>(mesh_count(input)) / count(*coarsest);
+  if (!(ratio > 1.0)) return 0.0;
+  const double factor =
+      safety_of_first_order * std::min(1.0 / (ratio - 1.0), largest_gain_of_first_order);
+  const double length = input.scene.beam.length;
   double excess = 0.0;
   for (const EnvelopeRow& row : run.envelope) {
-    const double here = magnitude(row.*range);
-    double error = 0.0;
-    for (const RunBeside& other : beside) {
-      const auto& there = other.result.envelope;
-      const auto right = std::ranges::lower_bound(there, row.position, {}, &EnvelopeRow::position);
-      if (right == there.end()) continue;
-      const auto left = right == there.begin() ? right : std::prev(right);
-      const double width = right->position - left->position;
-      const double share = width > 0.0 ? (row.position - left->position) / width : 0.0;
-      const double value = std::lerp(magnitude((*left).*range), magnitude((*right).*range), share);
-      error = std::max(error, safety * other.of.gain * std::abs(here - value));
-    }
-    excess = std::max(excess, here + error - largest);
+    const auto there = [&](double width) {
+      return largest_near(coarsest->result, row.position, width * length, range);
+    };
+    const double here = largest_near(run, row.position, near * length, range);
+    const double same =
+        std::clamp(here, there(near - between_points), there(near + between_points));
+    excess = std::max(excess, here + factor * std::abs(here - same) - largest);
   }
   return excess;
 }
@@ -182,8 +201,7 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
       *total.error += (run.peaks.*quantity.peak).sampling_error();
     }
     if (quantity.range != nullptr && total.error) {
-      const double elsewhere =
-          excess_elsewhere(run, beside, total.value, quantity.range, quantity.safety);
+      const double elsewhere = excess_elsewhere(input, run, beside, total.value, quantity.range);
       total.error = std::max(*total.error, elsewhere);
     }
     if (total.error && *total.error > quantity.largest_share * std::abs(total.value)) {

