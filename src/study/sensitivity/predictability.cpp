@@ -261,7 +261,11 @@ void add_predictability(Result& result, const Case& input, SensitivityOptions op
     return;
   }
   set_predictability(result, study, input.scatter);
-  add_samples(*result.predictability, input, options);
+  if (const std::size_t n = add_samples(*result.predictability, input, options); n > 0) {
+    result.warnings.push_back(fmt::format(
+        "{} of {} runs with sampled numbers did not complete, and the scatter is without them", n,
+        most_samples));
+  }
 }
 
 }  // namespace subimpact

@@ -65,22 +65,48 @@ Case sample(const Case& base, const Population& population, std::size_t number) 
   return input;
 }
 
+// Nothing where the scene does not allow the mesh.
+std::optional<Case> resized(const Case& input, double ratio) {
+  const std::optional<RefinedRun> other = on_other_mesh(input, ratio);
+  if (!other) return std::nullopt;
+  try {
+    resolve(other->input);
+  } catch (const InvalidCase&) {
+    return std::nullopt;
+  }
+  return other->input;
+}
+
+// Nothing where numbers do not go together, or the run does not complete.
+std::optional<Values> values_of(const Case& input, const Progress& progress) {
+  try {
+    NoRows none;
+    const Result run = simulate(input, progress, nullptr, &none);
+    if (!run.outcome.completed()) return std::nullopt;
+    Values values;
+    std::ranges::transform(totals, values.begin(),
+                           [&](const RunNumber& total) { return total.of(run); });
+    return values;
+  } catch (const InvalidCase&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Case affordable_case(const Case& input, double n_runs) {
-  const std::optional<RefinedRun> coarse = on_other_mesh(input, tried);
+  const std::optional<Case> coarse = resized(input, tried);
   if (!coarse) return input;
   NoRows none;
-  const Result run = simulate(coarse->input, {}, nullptr, &none);
-  const double all = n_runs * counted_work(coarse->input, run);
+  const Result run = simulate(*coarse, {}, nullptr, &none);
+  const double all = n_runs * counted_work(*coarse, run);
   const double ratio = tried * std::pow(most_work_of_scatter / all, 1.0 / usual_growth);
   if (ratio >= 1.0) return input;
-  const std::optional<RefinedRun> affordable = on_other_mesh(input, std::max(ratio, coarsest));
-  return affordable ? affordable->input : coarse->input;
+  return resized(input, std::max(ratio, coarsest)).value_or(*coarse);
 }
 
-void add_samples(Predictability& predictability, const Case& input,
-                 const SensitivityOptions& options) {
+std::size_t add_samples(Predictability& predictability, const Case& input,
+                        const SensitivityOptions& options) {
   Case base = affordable_case(input, most_samples);
   base.accuracy.event_times.reset();
   Population population;
@@ -90,16 +116,12 @@ void add_samples(Predictability& predictability, const Case& input,
   std::size_t n_done = 0;
   std::mutex mutex;
   in_parallel(most_samples, options.jobs, [&](std::size_t number) {
-    NoRows none;
-    const Result run = simulate(sample(base, population, number), options.progress, nullptr, &none);
+    samples[number] = values_of(sample(base, population, number), options.progress);
     const std::lock_guard lock(mutex);
     if (options.finished) options.finished(++n_done, most_samples);
-    if (!run.outcome.completed()) return;
-    std::ranges::transform(totals, samples[number].emplace().begin(),
-                           [&](const RunNumber& total) { return total.of(run); });
   });
-  std::erase(samples, std::nullopt);
-  if (2 * samples.size() < most_samples) return;
+  const auto n_missing = static_cast<std::size_t>(std::erase(samples, std::nullopt));
+  if (2 * n_missing > most_samples) return n_missing;
   predictability.n_samples = samples.size();
   predictability.samples_mesh = mesh_words(base);
   for (std::size_t k = 0; k < std::size(totals); ++k) {
@@ -111,6 +133,7 @@ void add_samples(Predictability& predictability, const Case& input,
       predictability.striker_velocity_scatter = predictability.totals.back().deviation;
     }
   }
+  return n_missing;
 }
 
 }  // namespace subimpact

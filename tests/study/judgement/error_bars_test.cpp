@@ -222,6 +222,7 @@ TEST(TheErrorOfALargestMoment, CoversOneThatIsElsewhereOnFinerMeshes) {
   beam.thickness = 0.00232729;
   beam.density = 4430.0;
   beam.youngs_modulus = 114e9;
+  beam.yield_stress = 992.244e6;
   beam.ends = {EndSupport::clamped, EndSupport::clamped};
   beam.forces = {{0.21009, {{0.0, 5.16261}}}};
   input.scene.striker.mass = 0.000238275;

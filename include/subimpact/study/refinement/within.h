@@ -35,7 +35,7 @@ JudgedRunMaker maker_of(const WithinOptions& options);
 /// How long an evaluation of the right-hand side takes, per unknown, over one of central
 /// differences on cells: powers of two, for methods that keep an error, damping, loads that vary
 /// (whose work is integrated step by step), round sections that yield, and elements, of which
-/// several sections each yield (validation/truth/within).
+/// several sections each yield. Right to within a factor of two or so.
 double evaluation_cost(const Case& input);
 
 /// The cost of a run: evaluations of the right-hand side times their cost and the unknowns of the

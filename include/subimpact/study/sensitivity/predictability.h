@@ -43,9 +43,10 @@ constexpr double runs_for_derivatives(double n_keys) {
 Case affordable_case(const Case& input, double n_runs);
 
 /// Sets Predictability::totals, and the standard deviation of the striker's velocity, which hold
-/// however the numbers depend on what scatters: from runs with the numbers of Population.
-void add_samples(Predictability& predictability, const Case& input,
-                 const SensitivityOptions& options);
+/// however the numbers depend on what scatters: from runs with the numbers of Population. Returns
+/// how many of them did not complete; if more than half, nothing is set.
+std::size_t add_samples(Predictability& predictability, const Case& input,
+                        const SensitivityOptions& options);
 
 /// Makes the study that a case's scatter needs (sensitivity()), on an affordable_case(), and sets
 /// the predictability of its result, with add_samples(). Does nothing if no scatter has an effect.
