@@ -93,7 +93,7 @@ std::vector<SequenceRun> sequence_of(const Case& finest, double end_time) {
       if (!sized) continue;  // finer than is allowed
       sized->end_time = end_time;
       const Result result = simulate(*sized);
-      runs.push_back({counted_work(result), result.sub_impacts});
+      runs.push_back({counted_work(*sized, result), result.sub_impacts});
     } catch (const InvalidCase&) {  // a strike too close to an end for the mesh
     }
   }

@@ -48,9 +48,10 @@ Wished run_wish(Case input, double wish) {
   input.accuracy.event_times = wish;
   WithinOptions options;
   options.announce = [&](const std::string& what) { wished.trace += "\n  " + what + ":"; };
-  options.finished = [&](const Case&, const Result& result) {
-    wished.work += counted_work(result);
-    wished.trace += fmt::format(" {:.2e}", counted_work(result));
+  options.finished = [&](const Case& run, const Result& result) {
+    const double work = counted_work(run, result);
+    wished.work += work;
+    wished.trace += fmt::format(" {:.2e}", work);
   };
   wished.run = simulate_within(input, {}, options);
   return wished;
