@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "numerics/lanes.h"
+
 namespace subimpact {
 namespace {
 
@@ -265,27 +267,43 @@ void TimoshenkoMesh::bending_forces(std::span<const double> moments,
   if (node(n_faces) + 1 < n_unknowns()) f[2 * n_faces + 1] = -couple * m[n_faces];
 }
 
+// With the shear strain of face j times kGA, S_j = rise (w_{j+1} - w_j) - turn (r phi_j): the node
+// at its left has the force S_j - S_{j-1}, the face itself arm S_j. Written for a node and its face
+// at once, with coefficients that alternate, so that eight unknowns that follow each other are
+// computed together; differences first, so that a large translation costs no digits.
 void TimoshenkoMesh::add_shear_forces(std::span<const double> unknowns,
                                       std::span<double> forces) const {
   const double* q = unknowns.data() + n_before_;
   double* f = forces.data() + n_before_;
-  std::size_t j = 0;
-  double before = 0.0;
   for (std::size_t side = 0; side < (symmetric() ? 1u : 2u); ++side) {
-    const double length = sides_[side].length;
     const double stiffness = copies() * shear_stiffness_per_length_;
-    const double rise = stiffness / length;
+    const double rise = stiffness / sides_[side].length;
     const double turn = stiffness / gyration_;
-    const double arm = length / gyration_;
-    const std::size_t end = side == 0 ? sides_[0].n_cells : n_nodes_ - 1;
-    for (; j < end; ++j) {
-      const double shear = rise * (q[2 * j + 2] - q[2 * j]) - turn * q[2 * j + 1];
-      f[2 * j] += shear - before;
-      f[2 * j + 1] += arm * shear;
-      before = shear;
+    const double arm = sides_[side].length / gyration_;
+    const std::size_t begin = side == 0 ? 0 : 2 * sides_[0].n_cells;
+    const std::size_t end = side == 0 ? 2 * sides_[0].n_cells : 2 * (n_nodes_ - 1);
+    if (begin == end) continue;
+    const auto shear = [=](std::size_t k) { return rise * (q[k + 2] - q[k]) - turn * q[k + 1]; };
+    f[begin] += shear(begin);
+    f[begin + 1] += arm * shear(begin);
+    const auto node_and_face = [=](std::size_t k) {
+      f[k] += rise * ((q[k + 2] - q[k]) - (q[k] - q[k - 2])) - turn * (q[k + 1] - q[k - 1]);
+      f[k + 1] += arm * shear(k);
+    };
+    std::size_t k = begin + 2;
+    for (; k < end && !begins_line(f + k); k += 2) node_and_face(k);
+    const Lanes rises = alternating(rise, 0.0);
+    const Lanes slopes = alternating(-turn, arm * rise);
+    const Lanes turns = alternating(0.0, -arm * turn);
+    for (; k + n_lanes <= end; k += n_lanes) {
+      const Lanes here = lanes_at(q + k);
+      const Lanes second = (lanes_at(q + k + 2) - here) - (here - lanes_at(q + k - 2));
+      const Lanes first = lanes_at(q + k + 1) - lanes_at(q + k - 1);
+      store(lanes_at(f + k) + rises * second + slopes * first + turns * here, f + k);
     }
+    for (; k < end; k += 2) node_and_face(k);
+    f[end] -= shear(end - 2);
   }
-  f[2 * j] -= before;
   for (std::size_t end = 0; end < (symmetric() ? 1u : 2u); ++end) {
     if (ends_[end] == EndSupport::free) continue;
     const EndFace face = end_face(end);

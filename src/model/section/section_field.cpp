@@ -164,6 +164,21 @@ void SectionField::exchange(Snapshot& snapshot) {
   }
 }
 
+bool SectionField::any_outside(std::span<const double> curvatures) const {
+  const double* k = curvatures.data();
+  const double* low = low_.data();
+  const double* high = high_.data();
+  std::size_t i = 0;
+  for (; i + n_lanes <= curvatures.size(); i += n_lanes) {
+    const Lanes here = lanes_at(k + i);
+    if (any((here > lanes_at(high + i)) | (here < lanes_at(low + i)))) return true;
+  }
+  for (; i < curvatures.size(); ++i) {
+    if (k[i] > high[i] || k[i] < low[i]) return true;
+  }
+  return false;
+}
+
 std::size_t SectionField::commit(std::span<const double> curvatures,
                                  std::span<const double> rates) {
   flowing_.clear();

@@ -73,6 +73,7 @@ class SectionField {
   const SectionHistory& history(std::size_t section) const;
 
   /// Bounds of the windows within which nothing flows, 1/m.
+  bool any_outside(std::span<const double> curvatures) const;  ///< of their windows
   std::span<const double> window_low() const { return low_; }
   std::span<const double> window_high() const { return high_; }
 

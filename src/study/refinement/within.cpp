@@ -44,6 +44,22 @@ constexpr double evaluations_per_step_in_modes = 3.0;
 constexpr double evaluations_per_explicit_step = 8.0;
 constexpr double phase_per_explicit_step = 2.0;
 
+// Of a run and those beside it, known beforehand if its method has fixed steps; else nothing.
+double work_of_fixed_steps(const Case& input) {
+  const ResolvedSettings used = resolve(input).settings();
+  if (!used.step) return 0.0;
+  return work_with_others * evaluation_cost(input) * input.end_time / *used.step *
+         static_cast<double>(used.n_unknowns);
+}
+
+// The coarsest mesh worth a run or, where that would take more work than is allowed, a coarser one.
+Case affordable_first(const Refinement& refinement, double work_limit) {
+  const Case& first = refinement.first();
+  const double work = work_of_fixed_steps(first);
+  if (refinement.fixed_key() || work <= work_limit) return first;
+  return refinement.resized(first, std::pow(work_limit / work, 1.0 / usual_growth)).value_or(first);
+}
+
 double default_tolerance(const Refinement& refinement) {
   return default_share_of_contact * refinement.contact_time();
 }
@@ -70,7 +86,7 @@ class Search {
   }
 
   WithinRun run() {
-    std::optional<Case> next = refinement_->first();
+    std::optional<Case> next = affordable_first(*refinement_, work_limit_);
     while (next) {
       Level level = level_of(*next, is_last(*next));
       if (level.result.outcome.kind == OutcomeKind::stopped) return ended_early(std::move(level));
@@ -80,7 +96,7 @@ class Search {
       }
       best_ = std::move(level);
       if (change_model()) {
-        next = refinement_->first();
+        next = affordable_first(*refinement_, work_limit_);
         continue;
       }
       if (!best_->result.outcome.completed() || is_met()) break;
@@ -214,7 +230,10 @@ class Search {
   // Whether no level is affordable after this one, or none is to be expected.
   bool is_last(const Case& next) const {
     if (refinement_->fixed_key()) return true;
-    if (!best_) return false;
+    if (!best_) {
+      const double with_next = 1.0 + std::pow(least_refinement, usual_growth);
+      return with_next * work_of_fixed_steps(next) > work_limit_;
+    }
     const double ratio = static_cast<double>(mesh_count(next)) / mesh_count(best_->input);
     const double after = work_ + work_of_next(ratio) + work_of_next(least_refinement * ratio);
     if (after > work_limit_) return true;
@@ -389,8 +408,9 @@ double counted_work(const Case& input, const Result& result) {
 ChosenModel first_choice(const Case& input, const OpenChoices& open) {
   ChosenModel chosen = choose_model(input, open, may_yield(input));
   const Refinement refinement(chosen.input, open);
-  chosen.input = refinement.first();
   const std::optional<double>& tolerance = input.accuracy.event_times;
+  const double work_limit = tolerance ? input.accuracy.work_limit : default_work_limit;
+  chosen.input = affordable_first(refinement, work_limit);
   if (const char* key = refinement.fixed_key()) {
     chosen.reason += fmt::format("; {} is fixed by the case", key);
     return chosen;
@@ -399,7 +419,7 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open) {
       "; refined until every event time is within {:.3g} us{} of the limit of fine meshes, or the "
       "counted work reaches {:.1e}",
       1e6 * tolerance.value_or(default_tolerance(refinement)), tolerance ? "" : " (the default)",
-      tolerance ? input.accuracy.work_limit : default_work_limit);
+      work_limit);
   if (may_yield(input) && open.mesh && open.method) {
     chosen.reason += "; elements in natural modes instead if no section yields";
   }

@@ -183,20 +183,21 @@ double SectionCorrector::bound_of_term(const std::vector<SectionEvent>& events, 
 std::optional<double> FirstFlow::find(const StruckBeam& beam, const StepEnds& step) {
   const SectionField& sections = beam.sections();
   if (step.event_free || !sections.can_yield()) return std::nullopt;
+  beam.mesh().curvatures(beam.beam_positions(step.y1), end_.curvatures);
+  if (!sections.any_outside(end_.curvatures)) return std::nullopt;
+  beam.read_motion(step.y0, start_);
   beam.read_motion(step.y1, end_);
   const auto low = sections.window_low();
   const auto high = sections.window_high();
-  std::optional<double> first;
+  double first = HUGE_VAL;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const double k1 = end_.curvatures[i];
     if (k1 >= low[i] && k1 <= high[i]) continue;
-    if (!first) beam.read_motion(step.y0, start_);
     const double sense = k1 > high[i] ? 1.0 : -1.0;
     const double edge = sense > 0.0 ? high[i] : -low[i];
     const HermiteCubic path(sense * start_.curvatures[i] - edge, sense * start_.rates[i],
                             sense * k1 - edge, sense * end_.rates[i], step.length());
-    const double time = step.t0 + path.rise(0.0, 1.0) * step.length();
-    first = std::min(first.value_or(time), time);
+    first = std::min(first, step.t0 + path.rise(0.0, 1.0) * step.length());
   }
   return first;
 }

@@ -73,7 +73,7 @@ TEST(ASearch, StaysOnCellsWhereContactBesideModesWouldTakeTooLong) {
   Case input = wishing(1e-4, SectionKind::exact, 3e-4);
   input.scene.striker.velocity = 0.05;
   EXPECT_EQ(simulate_within(input, {}).input.model.mesh, MeshKind::hermite);
-  input.accuracy.work_limit = 1e6;
+  input.accuracy.work_limit = 5e5;
   const WithinRun run = simulate_within(input, {});
   EXPECT_EQ(run.input.model.mesh, MeshKind::cells);
   EXPECT_TRUE(run.result.tolerance->met);
@@ -172,6 +172,27 @@ TEST(AWish, StopsAtTheLimitOfWork) {
   EXPECT_FALSE(run.result.tolerance->met);
   EXPECT_EQ(run.result.tolerance->key, "accuracy.work_limit");
   EXPECT_LE(work, 2.0 * 3e6);  // the limit holds for predicted work
+}
+
+TEST(AWish, BeginsOnACoarserMeshWhereTheUsualFirstOneIsAboveTheLimitAndRunsItOnce) {
+  Case input = wishing(1e-10, SectionKind::exact, 1e-3);
+  input.output.interval = 1e-5;
+  const int usual = first_choice(input, {}).input.model.segments;
+  input.accuracy.work_limit = 5e5;
+  std::map<int, int> runs;  // by mesh
+  double work = 0.0;
+  WithinOptions options;
+  options.finished = [&](const Case& run, const Result& result) {
+    ++runs[run.model.segments];
+    work += counted_work(run, result);
+  };
+  const WithinRun run = simulate_within(input, {}, options);
+  EXPECT_LT(run.input.model.segments, usual);
+  EXPECT_EQ(run.input.model.segments, first_choice(input, {}).input.model.segments);
+  EXPECT_EQ(run.result.tolerance->key, "accuracy.work_limit");
+  EXPECT_LE(work, 2.0 * 5e5);
+  EXPECT_FALSE(run.result.history.empty());
+  for (const auto& [segments, n] : runs) EXPECT_EQ(n, 1) << segments << " cells";
 }
 
 TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
