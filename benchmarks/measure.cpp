@@ -60,6 +60,15 @@ Case paper_case(SectionKind section) {
   return input;
 }
 
+Case paper_case_with_shear(SectionKind section) {
+  Case input = paper_case(section);
+  input.scene.beam.theory = BeamTheory::timoshenko;
+  input.scene.beam.poisson = 0.3;
+  input.scene.contact.kind = ContactKind::line;
+  input.scene.contact.pressure_by_depth = true;
+  return input;
+}
+
 Result run_to_end(const Case& input) {
   Result result = simulate(input);
   if (!result.outcome.completed()) throw std::runtime_error(result.outcome.message);

@@ -25,6 +25,9 @@ std::vector<double> seconds_side_by_side(const Settings& settings,
 /// The paper's example: mass 0.201 kg at 15.9 m/s on a free-free beam of 501 cells, up to 2 ms,
 /// without history rows.
 Case paper_case(SectionKind section);
+/// The same with shear, struck by the cylinder as Hertz's line contact with a yield pressure by
+/// depth.
+Case paper_case_with_shear(SectionKind section);
 
 /// simulate(), for a case that must run to its end. Throws std::runtime_error with the outcome if
 /// not.

@@ -56,13 +56,14 @@ def panels_of(column):
     return lambda table: ([[*range(len(set(table[column])))]], {"figsize": (11, 4.6), "sharex": True, "sharey": True})
 
 
-@plot.figure(panels_of("section"))
+@plot.figure(panels_of("scene"))
 def peers(table, axes):
     axes = np.ravel(axes)
-    for panel, section in zip(axes, dict.fromkeys(table["section"])):
+    for panel, scene in zip(axes, dict.fromkeys(table["scene"])):
         lines(panel, table, "contestant", "error_us", "seconds", dict.fromkeys(table["contestant"]),
-              table["section"] == section)
-        panel.set(xscale="log", yscale="log", title=section, xlabel="largest error of an event time, µs")
+              table["scene"] == scene)
+        panel.set(xscale="log", yscale="log", title=scene.replace("-", " "),
+                  xlabel="largest error of an event time, µs")
         panel.xaxis.set_major_locator(matplotlib.ticker.LogLocator(numticks=4))
         panel.minorticks_off()
     axes[0].set_ylabel("processor time, s")

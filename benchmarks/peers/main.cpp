@@ -17,6 +17,7 @@
 
 #include "../measure.h"
 #include "contestants.h"
+#include "peer.h"
 #include "subimpact/study/judgement/event_errors.h"
 
 namespace {
@@ -35,14 +36,6 @@ double processor_seconds() {
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
-
-struct Section {
-  SectionKind kind;
-  const char* name;
-};
-constexpr Section sections[] = {{SectionKind::elastic, "elastic"},
-                                {SectionKind::exact, "exact"},
-                                {SectionKind::layers, "layered"}};
 
 void run(Attempt& attempt, const std::vector<SubImpact>& reference) {
   const double start = processor_seconds();
@@ -139,11 +132,11 @@ Fastest fastest_of(std::vector<Contestant>& all, bool ours) {
   return fastest;
 }
 
-void print_table(const Section& section, std::vector<Contestant>& all, const Fastest& ours) {
+void print_table(const PeerScene& scene, std::vector<Contestant>& all, const Fastest& ours) {
   fmt::print(
       "\n{}: seconds for the largest error of an event time, and ratios to the fastest of "
       "subimpact\n\n",
-      section.name);
+      scene.name);
   fmt::print("|  |");
   for (const double wanted : wanted_errors)
     fmt::print(" {:.0e} us | ratio | setting |", us * wanted);
@@ -168,32 +161,32 @@ void print_table(const Section& section, std::vector<Contestant>& all, const Fas
   fmt::print("\n");
 }
 
-void print_verdicts(const Section& section, const Fastest& ours, const Fastest& others) {
+void print_verdicts(const PeerScene& scene, const Fastest& ours, const Fastest& others) {
   for (const double wanted : wanted_errors) {
     if (!ours.contains(wanted)) {
-      fmt::print("{}, {:.0e} us: not reached by subimpact\n", section.name, us * wanted);
+      fmt::print("{}, {:.0e} us: not reached by subimpact\n", scene.name, us * wanted);
       continue;
     }
     const double seconds = ours.at(wanted).first;
     if (!others.contains(wanted)) {
-      fmt::print("{}, {:.0e} us: subimpact {} s; no other reaches it\n", section.name, us * wanted,
+      fmt::print("{}, {:.0e} us: subimpact {} s; no other reaches it\n", scene.name, us * wanted,
                  digits(seconds));
     } else {
       const auto& [of_other, name] = others.at(wanted);
       fmt::print("{}, {:.0e} us: the fastest other, {}, takes {} times subimpact's {} s\n",
-                 section.name, us * wanted, name, ratio_text(of_other / seconds), digits(seconds));
+                 scene.name, us * wanted, name, ratio_text(of_other / seconds), digits(seconds));
     }
   }
   std::fflush(stdout);
 }
 
 // Whether this program reaches every wanted error.
-bool compare(const Section& section, std::vector<Contestant>& all,
+bool compare(const PeerScene& scene, std::vector<Contestant>& all,
              const std::vector<SubImpact>& reference) {
   repeat_winners(all, reference);
   const Fastest ours = fastest_of(all, true);
-  print_table(section, all, ours);
-  print_verdicts(section, ours, fastest_of(all, false));
+  print_table(scene, all, ours);
+  print_verdicts(scene, ours, fastest_of(all, false));
   return ours.size() == std::size(wanted_errors);
 }
 
@@ -215,10 +208,10 @@ std::vector<const Attempt*> front(const Contestant& contestant) {
   return points;
 }
 
-void write_front(std::ofstream& csv, const Section& section, const std::vector<Contestant>& all) {
+void write_front(std::ofstream& csv, const PeerScene& scene, const std::vector<Contestant>& all) {
   for (const Contestant& contestant : all) {
     for (const Attempt* s : front(contestant)) {
-      csv << fmt::format("{},\"{}\",{:d},{:.4e},{:.4e}\n", section.name, contestant.name,
+      csv << fmt::format("{},\"{}\",{:d},{:.4e},{:.4e}\n", scene.name, contestant.name,
                          contestant.ours, us * s->error, s->seconds);
     }
   }
@@ -231,29 +224,31 @@ int run_program(int argc, char** argv) {
   std::string table;
   std::string only;
   double end = 2e-3;
-  app.add_option("--sections", names, "elastic, exact, layered (default: all)")->delimiter(',');
+  app.add_option("--scenes", names,
+                 "elastic, exact, layered, elastic-with-shear, exact-with-shear (default: all)")
+      ->delimiter(',');
   app.add_option("--end", end, "s")->capture_default_str();
   app.add_option("--only", only, "contestants whose name contains this, and subimpact");
   app.add_option(
       "--also", others,
-      "NAME=FILE.SECTION: runs of another program, one file per section (read where it exists)");
+      "NAME=FILE.SCENE: runs of another program, one file per scene (read where it exists)");
   app.add_option("--table", table, "CSV file for the chart");
   app.footer("Exit status: 0 if this program reaches every wanted error, 1 if not.");
   CLI11_PARSE(app, argc, argv);
   std::ofstream csv;
   if (!table.empty()) csv.open(table);
-  csv << "section,contestant,ours,error_us,seconds\n";
+  csv << "scene,contestant,ours,error_us,seconds\n";
   bool reached = true;
-  for (const Section& section : sections) {
-    if (!names.empty() && std::ranges::find(names, section.name) == names.end()) continue;
-    Case input = benchmarks::paper_case(section.kind);
+  for (const PeerScene& scene : peer_scenes) {
+    if (!names.empty() && std::ranges::find(names, scene.name) == names.end()) continue;
+    Case input = case_of(scene);
     input.end_time = end;
     input.output.shapes = 0.0;
     const Reference reference =
         compute_reference(input, reference_share * wanted_errors[std::size(wanted_errors) - 1]);
     input.end_time = reference.horizon;
-    fmt::print("\n== {} section, to {:.2f} ms: {} sub-impacts; reference to {:.1e} us ({}; {})\n",
-               section.name, 1e3 * reference.horizon, reference.sub_impacts.size(),
+    fmt::print("\n== {}, to {:.2f} ms: {} sub-impacts; reference to {:.1e} us ({}; {})\n",
+               scene.name, 1e3 * reference.horizon, reference.sub_impacts.size(),
                us * reference.error, reference.description, reference.horizon_reason);
     std::vector<std::string> skipped;
     std::vector<Contestant> all = contestants(input, skipped);
@@ -266,16 +261,16 @@ int run_program(int argc, char** argv) {
     for (const std::string& other : others) {
       const std::size_t split = other.find('=');
       if (split == std::string::npos) throw std::runtime_error("--also: not NAME=FILE");
-      const std::string file = other.substr(split + 1) + "." + section.name;
+      const std::string file = other.substr(split + 1) + "." + scene.name;
       if (std::filesystem::exists(file)) {
         all.push_back(read_contestant(other.substr(0, split), file, reference.sub_impacts));
       } else {
-        skipped.push_back(other.substr(0, split) + " (" + section.name + ")");
+        skipped.push_back(other.substr(0, split) + " (" + scene.name + ")");
       }
     }
     for (const std::string& name : skipped) fmt::print("skipped: {}\n", name);
-    reached = compare(section, all, reference.sub_impacts) && reached;
-    write_front(csv, section, all);
+    reached = compare(scene, all, reference.sub_impacts) && reached;
+    write_front(csv, scene, all);
   }
   return reached ? 0 : 1;
 }

@@ -10,9 +10,26 @@
 #include <string>
 #include <vector>
 
+#include "../measure.h"
 #include "ode/integrator.h"
 
 namespace subimpact::peers {
+
+/// The published strike as the peers run it.
+struct PeerScene {
+  const char* name;
+  SectionKind section;
+  bool shears;  ///< Timoshenko's beam, and a line contact
+};
+inline constexpr PeerScene peer_scenes[] = {{"elastic", SectionKind::elastic, false},
+                                            {"exact", SectionKind::exact, false},
+                                            {"layered", SectionKind::layers, false},
+                                            {"elastic-with-shear", SectionKind::elastic, true},
+                                            {"exact-with-shear", SectionKind::exact, true}};
+inline Case case_of(const PeerScene& scene) {
+  return scene.shears ? benchmarks::paper_case_with_shear(scene.section)
+                      : benchmarks::paper_case(scene.section);
+}
 
 struct StepControl {
   double tolerance;                ///< of every position over its scale, and of every velocity

@@ -1,6 +1,6 @@
 """The strike by SciPy's DOP853 and RK45, on right-hand sides of this program compiled into a library.
 
-    python3 scipy_strike.py LIBRARY OUT SECTION      writes OUT.SECTION: setting seconds count start end ...
+    python3 scipy_strike.py LIBRARY OUT SCENE      writes OUT.SCENE: setting seconds count start end ...
 
 The steps are SciPy's; events are roots of the event functions on its dense output, found with brentq; histories of
 sections advance at the ends of steps.
@@ -15,24 +15,25 @@ from scipy.integrate import DOP853, RK45
 from scipy.optimize import brentq
 
 END = 2e-3  # s
-BUDGET = 60.0  # s for all settings of a section
+BUDGET = 60.0  # s for all settings of a scene
 US = 1e-6
 
 SETTINGS = {
     "elastic": [(DOP853, tolerance, None) for tolerance in (1e-4, 1e-5, 1e-6, 1e-7, 1e-8)],
     "exact": [(DOP853, 1e-6, None), (DOP853, 1e-7, None), (RK45, 1e-6, 0.1), (RK45, 1e-7, 0.05), (RK45, 1e-8, 0.025)],
 }
-SETTINGS["layered"] = SETTINGS["exact"]
+SETTINGS["layered"] = SETTINGS["exact-with-shear"] = SETTINGS["exact"]
+SETTINGS["elastic-with-shear"] = SETTINGS["elastic"]
 
 
 class Strike:
-    def __init__(self, library, section):
+    def __init__(self, library, scene):
         self.c = ctypes.CDLL(library)
         self.c.strike_make.restype = ctypes.c_void_p
         for name in ("unit", "scale"):
             getattr(self.c, "strike_" + name).restype = ctypes.c_double
         pointer = ctypes.c_void_p
-        self.of = pointer(self.c.strike_make(["elastic", "exact", "layered"].index(section)))
+        self.of = pointer(self.c.strike_make(scene.encode()))
         self.size = self.c.strike_size(self.of)
         self.unit = self.c.strike_unit(self.of)
         self.scale = self.c.strike_scale(self.of)
@@ -68,8 +69,8 @@ class Strike:
         return self.c.strike_pass(self.of, event, self.at(y))
 
 
-def run(library, section, solver_class, tolerance, longest):
-    strike = Strike(library, section)
+def run(library, scene, solver_class, tolerance, longest):
+    strike = Strike(library, scene)
     end = END / strike.unit
     options = {"rtol": 3e-14, "atol": tolerance * strike.scale}
     if longest:
@@ -107,14 +108,14 @@ def run(library, section, solver_class, tolerance, longest):
 
 
 def main():
-    library, out, section = sys.argv[1:4]
+    library, out, scene = sys.argv[1:4]
     spent = 0.0
-    with open(f"{out}.{section}", "w", encoding="utf-8") as file:
-        for solver_class, tolerance, longest in SETTINGS[section]:
+    with open(f"{out}.{scene}", "w", encoding="utf-8") as file:
+        for solver_class, tolerance, longest in SETTINGS[scene]:
             if spent > BUDGET:
                 break
             start = time.process_time()
-            contacts = run(library, section, solver_class, tolerance, longest)
+            contacts = run(library, scene, solver_class, tolerance, longest)
             seconds = time.process_time() - start
             spent += seconds
             text = f"{solver_class.__name__},{tolerance:.0e}" + (f",steps_up_to_{longest}_us" if longest else "")

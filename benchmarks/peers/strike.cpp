@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <string_view>
 
-#include "../measure.h"
 #include "peer.h"
 #include "simulate/run_parts.h"
 
@@ -35,10 +35,12 @@ struct Strike {
 // States are [q, tau v] in m over times in tau (see Equations).
 extern "C" {
 
-/// `section`: 0 elastic, 1 exact, 2 layers.
-void* strike_make(int section) {
-  const SectionKind kinds[] = {SectionKind::elastic, SectionKind::exact, SectionKind::layers};
-  Case input = benchmarks::paper_case(kinds[section]);
+/// `name`: of one of peers::peer_scenes; else null.
+void* strike_make(const char* name) {
+  const auto scene = std::ranges::find(peers::peer_scenes, std::string_view(name),
+                                       [](const auto& s) { return std::string_view(s.name); });
+  if (scene == std::end(peers::peer_scenes)) return nullptr;
+  Case input = peers::case_of(*scene);
   input.solver.method = Method::erk;
   return new Strike(input);
 }
