@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "numerics/gauss.h"
 
@@ -70,6 +71,22 @@ std::size_t count_unknowns(const Beam& beam, std::size_t n_elements, bool half) 
 
 }  // namespace
 
+SpectralMesh::Strains::Strains(double length, double gyration) {
+  for (std::size_t q = 0; q < n_points; ++q) {
+    for (std::size_t a = 0; a < n_nodes; ++a) {
+      const double slope = shapes.slope[q][a] / length;
+      rows[of_shear + q][2 * a] = slope;
+      rows[of_shear + q][2 * a + 1] = -shapes.value[q][a] / gyration;
+      rows[of_bending + q][2 * a] = 0.0;
+      rows[of_bending + q][2 * a + 1] = slope / gyration;
+    }
+  }
+  static_assert(2 * n_points == n_lanes);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (std::size_t q = 0; q < n_lanes; ++q) columns[i][q] = rows[q][i];
+  }
+}
+
 SpectralMesh::SpectralMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent)
     : BeamMesh(count_unknowns(beam, n_elements, extent == Extent::half), 0, extent == Extent::half),
       n_elements_(n_elements),
@@ -111,8 +128,10 @@ void SpectralMesh::place_elements(const Beam& beam, double position) {
   };
   const double before = length_of(position, n_before_);
   const double after = length_of(1.0 - position, n_elements_ - n_before_);
+  strains_ = {Strains(before, gyration_), Strains(after, gyration_)};
   for (std::size_t e = 0; e < n_kept; ++e) {
-    Element element{e < n_before_ ? before : after, {}, true};
+    const std::size_t side = e < n_before_ ? 0 : 1;
+    Element element{side == 0 ? before : after, side, {}, true};
     for (std::size_t a = 0; a < n_nodes; ++a) {
       element.unknowns[2 * a] = of_node[degree * e + a][0];
       element.unknowns[2 * a + 1] = of_node[degree * e + a][1];
@@ -156,11 +175,7 @@ void SpectralMesh::assemble_shear() {
     for (std::size_t q = 0; q < n_points; ++q) {
       const double weight =
           copies() * shear_stiffness_per_length_ * element.length * gauss<n_points>.weights[q];
-      Values row;  // the strain of 1 m in each unknown
-      for (std::size_t a = 0; a < n_nodes; ++a) {
-        row[2 * a] = shapes.slope[q][a] / element.length;
-        row[2 * a + 1] = -shapes.value[q][a] / gyration_;
-      }
+      const Values& row = strains_[element.side].rows[of_shear + q];
       for (std::size_t i = 0; i < row.size(); ++i) {
         for (std::size_t j = i; j < row.size(); ++j) {
           const std::size_t from = element.unknowns[i], to = element.unknowns[j];
@@ -221,93 +236,113 @@ std::optional<SparseFunctional> SpectralMesh::rotation_at(double x) const {
   return rotation;
 }
 
-void SpectralMesh::read(const Element& element, const double* unknowns, Values& values) {
-  if (element.is_contiguous) {
-    std::copy_n(unknowns + element.unknowns[0], values.size(), values.begin());
-    return;
-  }
+const double* SpectralMesh::read(const Element& element, const double* unknowns, Values& values) {
+  if (element.is_contiguous) return unknowns + element.unknowns[0];
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = element.unknowns[i] == held ? 0.0 : unknowns[element.unknowns[i]];
   }
+  return values.data();
 }
 
-void SpectralMesh::add(const Element& element, const Values& forces, double* to) {
-  if (element.is_contiguous) {
-    double* first = to + element.unknowns[0];
-    for (std::size_t i = 0; i < forces.size(); ++i) first[i] += forces[i];
-    return;
+// The node that an element shares with the next one waits in registers: to load what has just been
+// stored in parts would stall.
+template <class StressesOf>
+void SpectralMesh::add_stresses(std::size_t first_row, StressesOf stresses_of,
+                                double* forces) const {
+  double* shared = nullptr;
+  double waiting[2] = {};
+  const auto store_shared = [&] {
+    for (std::size_t i = 0; i < 2 && shared != nullptr; ++i) shared[i] += waiting[i];
+    shared = nullptr;
+    waiting[0] = waiting[1] = 0.0;
+  };
+  for (const Element& element : elements_) {
+    const Values* row = strains_[element.side].rows.data() + first_row;
+    const Stresses stresses = stresses_of(element);
+    if (!element.is_contiguous) {
+      store_shared();
+      for (std::size_t i = 0; i < element.unknowns.size(); ++i) {
+        if (element.unknowns[i] == held) continue;
+        for (std::size_t q = 0; q < n_points; ++q) {
+          forces[element.unknowns[i]] -= stresses[q] * row[q][i];
+        }
+      }
+      continue;
+    }
+    double* f = forces + element.unknowns[0];
+    Lanes eight = lanes_at(f);
+    for (std::size_t i = 0; i < 2; ++i) eight[i] += std::exchange(waiting[i], 0.0);
+    for (std::size_t q = 0; q < n_points; ++q) {
+      eight -= stresses[q] * lanes_at(row[q].data());
+      for (std::size_t i = 0; i < 2; ++i) waiting[i] -= stresses[q] * row[q][n_lanes + i];
+    }
+    store(eight, f);
+    shared = f + n_lanes;
   }
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    if (element.unknowns[i] != held) to[element.unknowns[i]] += forces[i];
-  }
-}
-
-double SpectralMesh::curvature_at(std::size_t point, const Element& element,
-                                  const Values& values) const {
-  double sum = 0.0;
-  for (std::size_t a = 0; a < n_nodes; ++a) sum += shapes.slope[point][a] * values[2 * a + 1];
-  return sum / (gyration_ * element.length);
-}
-
-double SpectralMesh::strain_at(std::size_t point, const Element& element,
-                               const Values& values) const {
-  double rise = 0.0, turn = 0.0;
-  for (std::size_t a = 0; a < n_nodes; ++a) {
-    rise += shapes.slope[point][a] * values[2 * a];
-    turn += shapes.value[point][a] * values[2 * a + 1];
-  }
-  return rise / element.length - turn / gyration_;
+  store_shared();
 }
 
 void SpectralMesh::curvatures(std::span<const double> unknowns, std::span<double> kappa) const {
   Values values;
   double* k = kappa.data();
   for (const Element& element : elements_) {
-    read(element, unknowns.data(), values);
-    for (std::size_t q = 0; q < n_points; ++q) *k++ = curvature_at(q, element, values);
+    const double* v = read(element, unknowns.data(), values);
+    const auto of = [&](std::size_t i) {
+      return lanes_at(strains_[element.side].columns[i].data()) * v[i];
+    };
+    const Lanes all = (of(1) + of(5) + of(9)) + (of(3) + of(7));
+    for (std::size_t q = 0; q < n_points; ++q) *k++ = all[of_bending + q];
   }
 }
 
 void SpectralMesh::bending_forces(std::span<const double> moments, std::span<double> forces) const {
   std::fill(forces.begin(), forces.end(), 0.0);
   const double* m = moments.data();
-  for (const Element& element : elements_) {
-    Values out{};
+  const auto stresses_of = [&](const Element& element) {
+    const double length = copies() * element.length;
+    Stresses stresses;
     for (std::size_t q = 0; q < n_points; ++q) {
-      const double moment = copies() / gyration_ * gauss<n_points>.weights[q] * *m++;
-      for (std::size_t a = 0; a < n_nodes; ++a) out[2 * a + 1] -= moment * shapes.slope[q][a];
+      stresses[q] = length * gauss<n_points>.weights[q] * *m++;
     }
-    add(element, out, forces.data());
+    return stresses;
+  };
+  add_stresses(of_bending, stresses_of, forces.data());
+}
+
+Lanes SpectralMesh::shear_strains(const Element& element, const double* unknowns) const {
+  Values values;
+  const double* v = read(element, unknowns, values);
+  const auto of = [&](std::size_t i) {
+    return lanes_at(strains_[element.side].columns[i].data()) * v[i];
+  };
+  Lanes even = of(0), odd = of(1);
+  for (std::size_t i = 2; i < values.size(); i += 2) {
+    even += of(i);
+    odd += of(i + 1);
   }
+  return even + odd;
 }
 
 void SpectralMesh::add_shear_forces(std::span<const double> unknowns,
                                     std::span<double> forces) const {
-  Values values;
-  for (const Element& element : elements_) {
-    read(element, unknowns.data(), values);
-    Values out{};
+  const auto stresses_of = [&](const Element& element) {
+    const Lanes strains = shear_strains(element, unknowns.data());
+    const double stiffness = copies() * shear_stiffness_per_length_ * element.length;
+    Stresses stresses;
     for (std::size_t q = 0; q < n_points; ++q) {
-      const double force = copies() * shear_stiffness_per_length_ * gauss<n_points>.weights[q] *
-                           strain_at(q, element, values);
-      const double couple = force * element.length / gyration_;
-      for (std::size_t a = 0; a < n_nodes; ++a) {
-        out[2 * a] -= force * shapes.slope[q][a];
-        out[2 * a + 1] += couple * shapes.value[q][a];
-      }
+      stresses[q] = stiffness * gauss<n_points>.weights[q] * strains[of_shear + q];
     }
-    add(element, out, forces.data());
-  }
+    return stresses;
+  };
+  add_stresses(of_shear, stresses_of, forces.data());
 }
 
 double SpectralMesh::shear_energy(std::span<const double> unknowns) const {
-  Values values;
   double sum = 0.0;
   for (const Element& element : elements_) {
-    read(element, unknowns.data(), values);
+    const Lanes strains = shear_strains(element, unknowns.data());
     for (std::size_t q = 0; q < n_points; ++q) {
-      const double strain = strain_at(q, element, values);
-      sum += element.length * gauss<n_points>.weights[q] * strain * strain;
+      sum += element.length * gauss<n_points>.weights[q] * strains[q] * strains[q];
     }
   }
   return 0.5 * copies() * shear_stiffness_per_length_ * sum;
@@ -322,14 +357,13 @@ double SpectralMesh::highest_frequency(double bending_stiffness) const {
     stiffness.setZero();
     for (std::size_t q = 0; q < n_points; ++q) {
       Eigen::Matrix<double, 2 * n_nodes, 1> bend, shear;
-      for (std::size_t a = 0; a < n_nodes; ++a) {
-        const auto i = static_cast<Eigen::Index>(2 * a);
+      const auto& rows = strains_[element->side].rows;
+      for (std::size_t k = 0; k < 2 * n_nodes; ++k) {
+        const auto i = static_cast<Eigen::Index>(k);
         // Scaled by the root of the mass, which w and r phi share.
-        const double root = std::sqrt(mass_per_length_ * length * node_weights[a]);
-        bend(i) = 0.0;
-        bend(i + 1) = shapes.slope[q][a] / (gyration_ * length) / root;
-        shear(i) = shapes.slope[q][a] / length / root;
-        shear(i + 1) = -shapes.value[q][a] / gyration_ / root;
+        const double root = std::sqrt(mass_per_length_ * length * node_weights[k / 2]);
+        bend(i) = rows[of_bending + q][k] / root;
+        shear(i) = rows[of_shear + q][k] / root;
       }
       const double weight = length * gauss<n_points>.weights[q];
       stiffness += weight * bending_stiffness * bend * bend.transpose() +

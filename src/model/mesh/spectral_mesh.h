@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "numerics/lanes.h"
 #include "subimpact/model/mesh/beam_mesh.h"
 
 namespace subimpact {
@@ -40,19 +41,31 @@ class SpectralMesh final : public BeamMesh {
  private:
   static constexpr std::size_t n_points = degree;  // Gauss points of an element
 
+  using Values = std::array<double, 2 * n_nodes>;
+  // What 1 m in an unknown of an element adds to the strains at its Gauss points: rows of shear
+  // strains, then of curvatures (1/m), by unknowns; and the columns, all strains of an unknown.
+  static constexpr std::size_t of_shear = 0, of_bending = n_points;  // first rows
+  struct Strains {
+    explicit Strains(double length, double gyration);
+    std::array<Values, 2 * n_points> rows;
+    std::array<std::array<double, 2 * n_points>, 2 * n_nodes> columns;
+  };
+  using Stresses = std::array<double, n_points>;  // times the length that a point stands for
+
   // Indices of an element's unknowns, node by node: w, r phi; `held` for those left out.
   static constexpr std::size_t held = static_cast<std::size_t>(-1);
   struct Element {
-    double length;  // m
+    double length;     // m
+    std::size_t side;  // of the strike
     std::array<std::size_t, 2 * n_nodes> unknowns;
     bool is_contiguous;  // one after the other, none held
   };
-  using Values = std::array<double, 2 * n_nodes>;
-  static void read(const Element& element, const double* unknowns, Values& values);
-  static void add(const Element& element, const Values& forces, double* to);
-  // At a Gauss point, from the values of an element.
-  double curvature_at(std::size_t point, const Element& element, const Values& values) const;
-  double strain_at(std::size_t point, const Element& element, const Values& values) const;
+  // The unknowns of an element, in `values` unless they follow each other.
+  static const double* read(const Element& element, const double* unknowns, Values& values);
+  // Takes from the forces what the stresses of all elements do; asks for them in order.
+  template <class StressesOf>
+  void add_stresses(std::size_t first_row, StressesOf stresses_of, double* forces) const;
+  Lanes shear_strains(const Element& element, const double* unknowns) const;  // first lanes
 
   void place_elements(const Beam& beam, double position);
   void assemble_mass(const Beam& beam);
@@ -64,6 +77,7 @@ class SpectralMesh final : public BeamMesh {
   std::size_t n_elements_;  // of the whole beam
   std::size_t n_before_;    // the strike
   std::vector<Element> elements_;
+  std::vector<Strains> strains_;  // by side
   double gyration_, mass_per_length_;
   double shear_stiffness_per_length_;  // kGA, N
 };
