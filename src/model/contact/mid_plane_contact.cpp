@@ -28,7 +28,7 @@ double integral(F f, double from, double to, int panels) {
 template <class Curve>
 double inverse(const Curve& curve, double target, double start) {
   constexpr int most_steps = 60;
-  constexpr double small = 1e-3, done = 1e-8;  // its square is a rounding
+  constexpr double small = 0.05, done = 1e-7;  // a fiftieth of its square is a rounding
   double a = start;
   for (int i = 0; i < most_steps; ++i) {
     const auto [value, slope] = curve(a);
@@ -82,9 +82,18 @@ ValueAndSlope MidPlaneContact::elastic_indentation(double stiffness, double a) c
   return indentation(a, stiffness / nose_.stiffness, elastic_force(stiffness, a));
 }
 
+// A run asks several times in each step for the same.
 double MidPlaneContact::half_width_at(double lambda) const {
-  return inverse([this](double a) { return indentation(a, 1.0, loading_force(a)); }, lambda,
-                 std::sqrt(1.5 * nose_.radius * lambda));
+  struct Last {
+    std::uint64_t law = 0;
+    double lambda = 0.0, a = 0.0;
+  };
+  thread_local Last last;
+  if (last.law != serial_ || last.lambda != lambda) {
+    const auto curve = [this](double a) { return indentation(a, 1.0, loading_force(a)); };
+    last = {serial_, lambda, inverse(curve, lambda, std::sqrt(1.5 * nose_.radius * lambda))};
+  }
+  return last.a;
 }
 
 double MidPlaneContact::half_width_of(const Dent& dent, double lambda) const {

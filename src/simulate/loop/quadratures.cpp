@@ -61,15 +61,16 @@ bool needs_halving(double quintic, double cubic, double tolerance) {
 
 }  // namespace
 
+template <std::size_t n_points>
 double ForceQuadrature::between(const Node& a, const Node& b, const StruckBeam& beam) {
   const double h = b.time - a.time;
   if (!(h > 0.0)) return 0.0;
   const HermiteCubic indentation(a.indentation, a.rate, b.indentation, b.rate, h);
   const ContactState& contact = beam.contact();
   double sum = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double s = gauss<3>.points[i];
-    sum += gauss<3>.weights[i] * contact.force(indentation(s), indentation.slope(s) / h);
+  for (std::size_t i = 0; i < n_points; ++i) {
+    const double s = gauss<n_points>.points[i];
+    sum += gauss<n_points>.weights[i] * contact.force(indentation(s), indentation.slope(s) / h);
   }
   return h * sum;
 }
@@ -114,7 +115,7 @@ double ForceQuadrature::over(const ObservedStep& step, const StruckBeam& beam) {
 
 double ForceQuadrature::roughly_over(const ObservedStep& step, const StruckBeam& beam) const {
   const auto [a, b] = ends_of(step);
-  return between(a, b, beam);
+  return between<2>(a, b, beam);
 }
 
 void LossQuadrature::read_acceleration(Node& node, StruckBeam& beam) {

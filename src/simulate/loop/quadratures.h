@@ -37,6 +37,7 @@ class ForceQuadrature {
     const IndentationStep& ends = step.indentation();
     return {{ends.t0, ends.lambda0, ends.rate0}, {ends.t1, ends.lambda1, ends.rate1}};
   }
+  template <std::size_t n_points = 3>
   static double between(const Node& a, const Node& b, const StruckBeam& beam);
   double halved(const Node& a, const Node& b, double whole, const ObservedStep& step,
                 const StruckBeam& beam, int depth);
