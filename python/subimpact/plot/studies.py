@@ -90,13 +90,13 @@ def outcomes(table: Table, axes: Any) -> None:
     axes[1].legend(handles=patches, loc="upper left", bbox_to_anchor=(1, 1), handlelength=1)
 
 
-@figure([[0, 1]], height=4.0, sharey=True)
+@figure([[0, 1, 2]], height=4.0, sharey=True)
 def critical_steps(table: Table, axes: Any) -> None:
     """The largest stable step of explicit methods over the number of cells: lines predicted, points
     measured."""
     methods = _unique(table["method"])
-    for panel, theory, title in zip(axes, ("rayleigh", "euler-bernoulli"),
-                                    ("Rayleigh", "Euler-Bernoulli (no rotary inertia)")):
+    for panel, theory, title in zip(axes, ("rayleigh", "euler-bernoulli", "timoshenko"),
+                                    ("Rayleigh", "without rotary inertia", "with shear")):
         for k, method in enumerate(methods):
             rows = (table["theory"] == theory) & (table["method"] == method)
             colour, dashes = _line(k)
@@ -108,7 +108,7 @@ def critical_steps(table: Table, axes: Any) -> None:
         panel.set_xticks(sizes, [f"{n:g}" for n in sizes])
         panel.minorticks_off()
     axes[0].set_ylabel("largest stable step, µs")
-    axes[1].legend(loc="upper left", bbox_to_anchor=(1, 1))
+    axes[2].legend(loc="upper left", bbox_to_anchor=(1, 1))
 
 
 @figure([[0]], height=3.8)

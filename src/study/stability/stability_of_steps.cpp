@@ -148,7 +148,8 @@ std::vector<CriticalStep> critical_steps(const Case& input, const std::vector<st
   for (const std::string& method : explicit_methods()) {
     if (!asked_for(methods, method)) continue;
     const double limit = stability_limit(method);
-    for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+    for (const BeamTheory theory :
+         {BeamTheory::rayleigh, BeamTheory::euler_bernoulli, BeamTheory::timoshenko}) {
       for (const double part : {0.2, 0.4, 0.8, 1.6}) {
         CriticalStep row;
         row.method = method;
@@ -163,6 +164,7 @@ std::vector<CriticalStep> critical_steps(const Case& input, const std::vector<st
     CriticalStep& row = list[i];
     Case trial = with_method(input, row.method);
     trial.scene.beam.theory = row.theory;
+    if (trial.scene.beam.shears() && !trial.scene.beam.poisson) trial.scene.beam.poisson = 0.3;
     trial.model.segments = row.segments;
     FreeVibration beam(trial);
     row.highest_frequency = beam.highest_frequency();
