@@ -24,24 +24,8 @@ double integral(F f, double from, double to, int panels) {
   return (to - from) * sum / panels;
 }
 
-// Newton's method in ln a: the curves are nearly powers, of exponents from 1 to 2.
-template <class Curve>
-double inverse(const Curve& curve, double target, double start) {
-  constexpr int most_steps = 60;
-  constexpr double small = 0.05, done = 1e-7;  // a fiftieth of its square is a rounding
-  double a = start;
-  for (int i = 0; i < most_steps; ++i) {
-    const auto [value, slope] = curve(a);
-    const double exponent = a * slope / value, rest = target / value - 1.0;
-    if (!(std::abs(rest) < small)) {
-      a *= std::exp(std::log1p(rest) / exponent);
-      continue;
-    }
-    a *= 1.0 + rest / exponent * (1.0 + 0.5 * rest * (1.0 / exponent - 1.0));
-    if (std::abs(rest) < done) break;
-  }
-  return a;
-}
+// Of half widths for which starts are stored, in nose radii; below and above, guesses do.
+constexpr double narrowest = 1e-6, widest_of_radius = 1.0;
 
 }  // namespace
 
@@ -52,7 +36,14 @@ MidPlaneContact::MidPlaneContact(std::string name, NoseOnBeam nose,
       pressure_(std::move(pressure)),
       first_yield_(pressure_ ? elastic_indentation(nose_.stiffness, pressure_->first_yield).at
                              : std::numeric_limits<double>::infinity()),
-      serial_(++n_laws) {}
+      serial_(++n_laws) {
+  const double widest = std::min(nose_.widest, widest_of_radius * nose_.radius);
+  elastic_starts_ = StartTable([this](double a) { return elastic_indentation(nose_.stiffness, a); },
+                               std::min(narrowest * nose_.radius, 0.5 * widest), widest);
+  if (!pressure_ || !(pressure_->first_yield < 0.5 * widest)) return;
+  plastic_starts_ = StartTable([this](double a) { return indentation(a, 1.0, loading_force(a)); },
+                               pressure_->first_yield, widest);
+}
 
 ContactScales MidPlaneContact::scales() const {
   if (nose_.order != 3) return ContactLaw::scales();
@@ -91,16 +82,19 @@ double MidPlaneContact::half_width_at(double lambda) const {
   thread_local Last last;
   if (last.law != serial_ || last.lambda != lambda) {
     const auto curve = [this](double a) { return indentation(a, 1.0, loading_force(a)); };
-    last = {serial_, lambda, inverse(curve, lambda, std::sqrt(1.5 * nose_.radius * lambda))};
+    const StartTable& starts = lambda > first_yield_ ? plastic_starts_ : elastic_starts_;
+    const double guess = std::sqrt(1.5 * nose_.radius * lambda);
+    last = {serial_, lambda, inverse_of_power(curve, lambda, starts(lambda, guess))};
   }
   return last.a;
 }
 
+// A dent's indentations are those of the flat surface times k_m/k.
 double MidPlaneContact::half_width_of(const Dent& dent, double lambda) const {
-  const double above = std::abs(lambda - dent.residual);
+  const double above = std::abs(lambda - dent.residual) * (nose_.stiffness / dent.stiffness);
   if (above == 0.0) return 0.0;
-  return inverse([&](double a) { return elastic_indentation(dent.stiffness, a); }, above,
-                 std::sqrt(nose_.radius * nose_.stiffness / dent.stiffness * above));
+  return inverse_of_power([this](double a) { return elastic_indentation(nose_.stiffness, a); },
+                          above, elastic_starts_(above, std::sqrt(nose_.radius * above)));
 }
 
 // A run asks thousands of times for the same dent.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "model/contact/curves/mean_pressure.h"
+#include "model/contact/curves/start_table.h"
 #include "subimpact/model/contact/contact_law.h"
 
 namespace subimpact {
@@ -71,8 +72,9 @@ class MidPlaneContact final : public ContactLaw {
   std::string name_;
   NoseOnBeam nose_;
   std::optional<MeanPressure> pressure_;
-  double first_yield_;    // m, an indentation
-  std::uint64_t serial_;  // of this law, among all
+  double first_yield_;                          // m, an indentation
+  StartTable elastic_starts_, plastic_starts_;  // of half widths, below and above first yield
+  std::uint64_t serial_;                        // of this law, among all
 };
 
 }  // namespace subimpact
