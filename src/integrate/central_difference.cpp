@@ -1,15 +1,8 @@
 #include "integrate/central_difference.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace subimpact {
-namespace {
-
-// Velocities that are read again before they leave the nearest cache.
-constexpr std::size_t in_nearest_cache = 1024;
-
-}  // namespace
 
 CentralDifference::CentralDifference(SecondOrderOde& ode, double step, bool constant_force_on_last)
     : ode_(ode),
@@ -38,11 +31,8 @@ void CentralDifference::advance(double t, double h, const State& from, const Ali
   double* v = q + n_;
   const double* a0 = a_from.data();
   const double* a1 = acceleration.data();
-  for (std::size_t i = 0; i < n_; i += in_nearest_cache) {
-    const std::size_t n = std::min(in_nearest_cache, n_ - i);
-    assign_by_lines(v + i, n, [=](auto at) { return at(v0 + i) + half * at(a0 + i); });
-    assign_by_lines(q + i, n, [=](auto at) { return at(q0 + i) + h * at(v + i); });
-  }
+  assign_by_lines(v, n_, [=](auto at) { return at(v0) + half * at(a0); });
+  assign_by_lines(q, n_, [=](auto at) { return at(q0) + h * at(v); });
   if (constant_force_on_last_) q[n_ - 1] = q0[n_ - 1] + h * v0[n_ - 1];
   ode_.set_time(t + h);
   ode_.acceleration({q, n_}, acceleration);
