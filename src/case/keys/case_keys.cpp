@@ -78,8 +78,8 @@ struct Member<std::vector<Spring>> {
   }
   static std::vector<Spring> from_value(const KeyValue& v) {
     std::vector<Spring> springs;
-    for (const auto& [position, table] : std::get<PlacedValues>(v).entries) {
-      springs.push_back({position, table.front().second});
+    for (const auto& one : std::get<PlacedValues>(v).entries) {
+      springs.push_back({one.position, one.table.front().second});
     }
     return springs;
   }
@@ -94,10 +94,28 @@ struct Member<std::vector<PointForce>> {
   }
   static std::vector<PointForce> from_value(const KeyValue& v) {
     std::vector<PointForce> forces;
-    for (const auto& [position, table] : std::get<PlacedValues>(v).entries) {
-      forces.push_back({position, table});
+    for (const auto& one : std::get<PlacedValues>(v).entries) {
+      forces.push_back({one.position, one.table});
     }
     return forces;
+  }
+};
+
+template <>
+struct Member<std::vector<Gauge>> {
+  static constexpr KeyType type = KeyType::placed;
+  using Choices = Face;
+  static KeyValue to_value(const std::vector<Gauge>& x) {
+    PlacedValues value{"face", {}};
+    for (const Gauge& one : x) value.entries.push_back({one.position, {}, name_of(one.face)});
+    return value;
+  }
+  static std::vector<Gauge> from_value(const KeyValue& v) {
+    std::vector<Gauge> gauges;
+    for (const auto& one : std::get<PlacedValues>(v).entries) {
+      gauges.push_back({one.position, value_of<Face>(one.word)});
+    }
+    return gauges;
   }
 };
 
@@ -400,6 +418,7 @@ std::vector<CaseKey> make_case_keys() {
     row("output.opening", "m", not_negative, "contacts between which striker and beam part by less are joined to one sub-impact; 0: none", as_in_case, AT(output.opening)),
     row("output.sections", "", fraction, "positions, as fractions of the length, of sections whose curvature and moment are kept", as_in_case, AT(output.sections)),
     row("output.points", "", fraction, "positions, as fractions of the length, of points whose displacement and velocity are kept", as_in_case, AT(output.points)),
+    row("output.gauges", "", any_value, "strain gauges along the axis, on the struck face or on the back, whose strains are columns of history.csv", "[]", AT(output.gauges)),
     row("output.shapes", "s", not_negative, "time between shapes, the fields along the whole beam; 0: none, and no envelope", "time.end/400 in whole intervals; without history rows none", AT(output.shapes)),
     row("output.shape_points", "", between("from 5 to 200000", 5, 200000), "most points of a shape, along the whole beam", as_in_case, AT(output.shape_points)),
 
