@@ -14,7 +14,7 @@ from .._errors import CaseError, ResultsError
 from ..case import Case, as_case, keys as all_keys
 from ..result import Result
 from ..running import run
-from .aligning import Alignment, align, covariance_of, curve_of
+from .aligning import Alignment, align, curve_of, solve
 from .reading import Signal
 from .words import rounded
 
@@ -163,48 +163,34 @@ def fit(
     Every run is that of the case without error bars. Raises CaseError for keys that are no numbers or
     have no value, and ResultsError as `align` does.
     """
-    from scipy.optimize import least_squares
-
     start = _start(as_case(case), [keys] if isinstance(keys, str) else list(keys))
     runs = _Runs(case, signal, start)
     n = len(start)
     first = align(runs(np.full(n, _BEGIN)), signal, shift, gain, low_pass)
-    interval, step, apart = signal.interval, 0.5 * signal.interval, 20 * signal.interval
+    apart = 20 * signal.interval  # a unit of the shift
     margin = 0.1 * (first.end - first.begin)
-    inside = (signal.times - first.shift > first.begin - margin) & (signal.times - first.shift < first.end - 16 * interval)
+    later = signal.times - first.shift
+    inside = (later > first.begin - margin) & (later < first.end - 16 * signal.interval)
     times, forces = signal.times[inside], signal.forces[inside] / gain
 
-    def force(z: Numbers, later: float = 0.0) -> Numbers:
+    def force(z: Numbers) -> Numbers:
         moved = first.shift + ((z[n] - _BEGIN) * apart if shift is None else 0.0)
-        return curve_of(runs(z[:n]), low_pass).at(times - moved + later)
-
-    def residuals(z: Numbers) -> Numbers:
-        difference = force(z) - forces
+        computed = curve_of(runs(z[:n]), low_pass).at(times - moved)
         if progress is not None:
-            progress(runs.n, float(np.sqrt(np.mean(difference**2))))
-        return difference
-
-    def jacobian(z: Numbers) -> Numbers:
-        columns = []
-        for j in range(n):
-            down, up = z.copy(), z.copy()
-            down[j], up[j] = max(z[j] - _STEP, lower[j]), min(z[j] + _STEP, upper[j])
-            columns.append((force(up) - force(down)) / (up[j] - down[j]))
-        if shift is None:
-            columns.append((force(z, -step) - force(z, step)) / (2 * step) * apart)
-        return np.stack(columns, axis=1)
+            progress(runs.n, float(np.sqrt(np.mean((computed - forces) ** 2))))
+        return computed
 
     free = np.full(n + (shift is None), _BEGIN)
     runs.choose_units(lambda x: force(np.r_[x, free[n:]]), _limits(runs, bounds))
-    lower, upper = _limits(runs, bounds)
-    ends = (np.r_[lower, [-np.inf] * (len(free) - n)], np.r_[upper, [np.inf] * (len(free) - n)])
-    found = least_squares(residuals, np.clip(free, *ends), jac=jacobian, bounds=ends, method="dogbox",
-                          xtol=1e-6, ftol=1e-7)
-    covariance = covariance_of(found.jac, found.fun)[:n, :n]
-    values = runs.values(found.x[:n])
+    ends = np.pad(_limits(runs, bounds), ((0, 0), (0, len(free) - n)), constant_values=np.nan)
+    ends[:, n:] = [[-np.inf], [np.inf]]
+    steps = np.r_[np.full(n, _STEP), np.full(len(free) - n, 0.5 * signal.interval / apart)]
+    found, covariance = solve(force, forces, free, steps, ends, method="dogbox", xtol=1e-6, ftol=1e-7)
+    covariance = covariance[:n, :n]
+    values = runs.values(found[:n])
     deviations = np.sqrt(np.diag(covariance))
     per_x = np.array([abs(value) if start[key] else runs.units[key] for key, value in values.items()])
     with np.errstate(invalid="ignore"):
         related = covariance / np.outer(deviations, deviations)
     return Fit(tuple(start), np.array(list(values.values())), deviations * per_x, related,
-               align(runs(found.x[:n]), signal, shift, gain, low_pass), case.changed(values), runs.n)
+               align(runs(found[:n]), signal, shift, gain, low_pass), case.changed(values), runs.n)

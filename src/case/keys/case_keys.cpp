@@ -68,55 +68,40 @@ struct Member<std::array<T, 2>> {
   }
 };
 
-template <>
-struct Member<std::vector<Spring>> {
-  static constexpr KeyType type = KeyType::placed;
-  static KeyValue to_value(const std::vector<Spring>& x) {
-    PlacedValues value{"stiffness", {}};
-    for (const Spring& one : x) value.entries.push_back({one.position, {{0.0, one.stiffness}}});
-    return value;
-  }
-  static std::vector<Spring> from_value(const KeyValue& v) {
-    std::vector<Spring> springs;
-    for (const auto& one : std::get<PlacedValues>(v).entries) {
-      springs.push_back({one.position, one.table.front().second});
-    }
-    return springs;
-  }
-};
-template <>
-struct Member<std::vector<PointForce>> {
-  static constexpr KeyType type = KeyType::placed;
-  static KeyValue to_value(const std::vector<PointForce>& x) {
-    PlacedValues value{"force", {}};
-    for (const PointForce& one : x) value.entries.push_back({one.position, one.table});
-    return value;
-  }
-  static std::vector<PointForce> from_value(const KeyValue& v) {
-    std::vector<PointForce> forces;
-    for (const auto& one : std::get<PlacedValues>(v).entries) {
-      forces.push_back({one.position, one.table});
-    }
-    return forces;
-  }
-};
+// Things at points, each as an entry of a list and back.
+using Entry = PlacedValues::Entry;
+Entry entry_of(const Spring& x) { return {x.position, {{0.0, x.stiffness}}}; }
+Entry entry_of(const PointForce& x) { return {x.position, x.table}; }
+Entry entry_of(const Gauge& x) { return {x.position, {}, name_of(x.face)}; }
+void read(const Entry& entry, Spring& x) { x = {entry.position, entry.table.front().second}; }
+void read(const Entry& entry, PointForce& x) { x = {entry.position, entry.table}; }
+void read(const Entry& entry, Gauge& x) { x = {entry.position, value_of<Face>(entry.word)}; }
 
-template <>
-struct Member<std::vector<Gauge>> {
+const char* quantity_of(const Spring&) { return "stiffness"; }
+const char* quantity_of(const PointForce&) { return "force"; }
+const char* quantity_of(const Gauge&) { return "face"; }
+
+template <class T>
+struct PlacedMember {
   static constexpr KeyType type = KeyType::placed;
-  using Choices = Face;
-  static KeyValue to_value(const std::vector<Gauge>& x) {
-    PlacedValues value{"face", {}};
-    for (const Gauge& one : x) value.entries.push_back({one.position, {}, name_of(one.face)});
+  static KeyValue to_value(const std::vector<T>& x) {
+    PlacedValues value{quantity_of(T{}), {}};
+    for (const T& one : x) value.entries.push_back(entry_of(one));
     return value;
   }
-  static std::vector<Gauge> from_value(const KeyValue& v) {
-    std::vector<Gauge> gauges;
-    for (const auto& one : std::get<PlacedValues>(v).entries) {
-      gauges.push_back({one.position, value_of<Face>(one.word)});
-    }
-    return gauges;
+  static std::vector<T> from_value(const KeyValue& v) {
+    std::vector<T> things;
+    for (const Entry& entry : std::get<PlacedValues>(v).entries) read(entry, things.emplace_back());
+    return things;
   }
+};
+template <>
+struct Member<std::vector<Spring>> : PlacedMember<Spring> {};
+template <>
+struct Member<std::vector<PointForce>> : PlacedMember<PointForce> {};
+template <>
+struct Member<std::vector<Gauge>> : PlacedMember<Gauge> {
+  using Choices = Face;
 };
 
 template <class T>
