@@ -78,16 +78,18 @@ def solve(model: Callable[[Numbers], Numbers], forces: Numbers, start: Numbers, 
     parameter for its derivative; `bounds`: of two rows; `options`: of scipy.optimize.least_squares."""
     from scipy.optimize import least_squares
 
+    size = float(np.abs(forces).max())  # strains are small beside the tolerance of gradients
+
     def jacobian(x: Numbers) -> Numbers:
         columns = []
         for j, step in enumerate(steps):
             down, up = x.copy(), x.copy()
             down[j], up[j] = max(x[j] - step, bounds[0][j]), min(x[j] + step, bounds[1][j])
-            columns.append((model(up) - model(down)) / (up[j] - down[j]))
+            columns.append((model(up) - model(down)) / (size * (up[j] - down[j])))
         return np.stack(columns, axis=1)
 
     inside = np.clip(start, bounds[0] + 1e-6, bounds[1] - 1e-6)
-    found = least_squares(lambda x: model(x) - forces, inside, jac=jacobian, bounds=tuple(bounds), **options)
+    found = least_squares(lambda x: (model(x) - forces) / size, inside, jac=jacobian, bounds=tuple(bounds), **options)
     return found.x, covariance_of(found.jac, found.fun)
 
 
@@ -123,11 +125,11 @@ class Curve:
 
 @dataclass(frozen=True)
 class Side:
-    """One of the two forces on the time of the run."""
+    """One of the two forces, or strains, on the time of the run."""
 
     times: Numbers  #: s
     forces: Numbers  #: N; the computed one as filtered, the measured one divided by the gain
-    peak: float  #: N, the largest in the time that both cover
+    peak: float  #: N, the largest in the time that both cover; of strains that of the largest magnitude
     peak_time: float  #: s
     impulse: float  #: N s, in that time
     contact: float  #: s, how long in that time the force is above 5 % of its largest value
@@ -135,7 +137,7 @@ class Side:
 
 def _side(curve: Curve, begin: float, end: float) -> Side:
     times, forces = curve.within(begin, end)
-    top = int(np.argmax(forces))
+    top = int(np.argmax(np.abs(forces)))
     steps, limit = np.diff(times), _IN_CONTACT * forces[top]
     low, high = np.minimum(forces[1:], forces[:-1]), np.maximum(forces[1:], forces[:-1])
     share = np.clip((high - limit) / np.where(high > low, high - low, 1.0), 0.0, 1.0)
@@ -163,12 +165,13 @@ class Alignment:
     measured: Side
     difference: tuple[Numbers, Numbers]  #: times and forces, computed less measured
     at_bound: bool  #: whether the cut-off found is at an end of the searched range
+    quantity: str = "force"  #: or "strain": what is named a force here is then the strain of a gauge, m/m
 
     @property
     def doubt(self) -> str:
         """Why the comparison may mean nothing; "" if no reason was found."""
         if self.correlation < _LIKE_EACH_OTHER:
-            return (f"the two forces have a correlation of {self.correlation:.2f}, and two of the same strike more than "
+            return (f"the two {self.quantity}s have a correlation of {self.correlation:.2f}, and two of the same strike more than "
                     f"{_LIKE_EACH_OTHER}: the case is not that of the measurement, or the shift or the filter is wrong")
         if self.at_bound:
             return ("the cut-off found is at an end of the searched range: the measurement shows no low-pass filter of fourth "
@@ -184,17 +187,20 @@ class Alignment:
         return "\n".join(lines + ([f"warning: {self.doubt}"] if self.doubt else []))
 
     def plot(self, axes: Any = None) -> Any:
-        """Draws both forces over the time of the run; returns the axes of Matplotlib."""
+        """Draws both over the time of the run; returns the axes of Matplotlib."""
         from .drawing import draw_forces
 
         return draw_forces(self, axes)
 
 
-def curve_of(result: Result, cutoff: float | None = None) -> Curve:
-    """The force of a run, and as a transducer shows it."""
+def curve_of(result: Result, cutoff: float | None = None, column: str = "force_N") -> Curve:
+    """The force of a run, or another column of its history, and as a transducer shows it."""
     if len(result.history) < 2:
         raise ResultsError("the run kept no history; run it again with output.interval above 0")
-    times, forces = (np.ascontiguousarray(result.history[name]) for name in ("time_s", "force_N"))
+    if column not in result.history.dtype.names:
+        raise ResultsError(f"the run has no {column}; give the case gauges, such as output.gauges = [{{ position = \"0.3 m\", "
+                           "face = \"back\" }], and choose one with gauge=")
+    times, forces = (np.ascontiguousarray(result.history[name]) for name in ("time_s", column))
     return Curve(times, forces if cutoff is None else low_passed(times, forces, cutoff))
 
 
@@ -263,6 +269,11 @@ class _Search:
         return values * in_seconds, errors * in_seconds, self.filtered(None if low_pass is None else float(values[1]))
 
 
+def column_of(signal: Signal, gauge: int) -> str:
+    """The column of history.csv that a signal is compared with."""
+    return "force_N" if signal.quantity == "force" else f"gauge_{gauge}_strain"
+
+
 def _check_pushes(forces: Numbers, whose: str, remedy: str) -> None:
     low, high = float(np.min(forces, initial=0.0)), float(np.max(forces, initial=0.0))
     if not high > 0.0 or high < -low:
@@ -270,8 +281,8 @@ def _check_pushes(forces: Numbers, whose: str, remedy: str) -> None:
 
 
 def align(result: Result, signal: Signal, shift: float | None = None, gain: float | Literal["find"] = 1.0,
-          low_pass: Found = None) -> Alignment:
-    """Compares a measured force with the history of a run, whose force is zero before it begins.
+          low_pass: Found = None, gauge: int = 1) -> Alignment:
+    """Compares a measured force, or a strain, with the history of a run, whose force is zero before it begins.
 
     shift     s, by which the measured time is later than that of the run; None: it is found, where
               the two forces differ least
@@ -279,12 +290,14 @@ def align(result: Result, signal: Signal, shift: float | None = None, gain: floa
     low_pass  Hz, the cut-off of the transducer, by which the computed force is filtered: `low_passed`;
               "find": that with which the forces differ least, between two periods within the record
               and half of the sampling rate
+    gauge     of a measured strain: the number, from 1, of the gauge in output.gauges
 
-    Raises ResultsError if there is no common time, the run has no history or no force.
+    Raises ResultsError if there is no common time, the run has no history, no force or no such gauge.
     """
-    raw = curve_of(result)
-    _check_pushes(raw.forces, "computed", "a run without contact has no force to compare with a measurement")
-    _check_pushes(signal.forces, "measured", "contact pushes, and its force is positive here: read it with sign=-1")
+    raw = curve_of(result, column=column_of(signal, gauge))
+    if signal.quantity == "force":
+        _check_pushes(raw.forces, "computed", "a run without contact has no force to compare with a measurement")
+        _check_pushes(signal.forces, "measured", "contact pushes, and its force is positive here: read it with sign=-1")
     search = _Search(raw, signal, shift)
     if shift is not None:
         _check_common(shift, signal, raw)
@@ -303,7 +316,7 @@ def align(result: Result, signal: Signal, shift: float | None = None, gain: floa
         correlation=correlation(here, forces[inside]), interval=signal.interval, begin=begin, end=end,
         computed=_side(computed, begin, end), measured=_side(Curve(times, forces), begin, end),
         difference=(times[inside], here - forces[inside]),
-        at_bound=find and float(np.min(np.abs(search.cutoffs - x))) < 1e-2)
+        at_bound=find and float(np.min(np.abs(search.cutoffs - x))) < 1e-2, quantity=signal.quantity)
 
 
 def _check_common(shift: float, signal: Signal, run: Curve) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""Keys of a case fitted to a measured force."""
+"""Keys of a case fitted to a measured force or strain."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .._errors import CaseError, ResultsError
 from ..case import Case, as_case, keys as all_keys
 from ..result import Result
 from ..running import run
-from .aligning import Alignment, align, curve_of, solve
+from .aligning import Alignment, align, column_of, curve_of, solve
 from .reading import Signal
 from .words import rounded
 
@@ -30,7 +30,7 @@ _STEP = 1e-3  # of a key, for derivatives; the tolerance of a run is far below
 
 @dataclass(frozen=True, repr=False)
 class Fit:
-    """Keys of a case with which a run gives the measured force."""
+    """Keys of a case with which a run gives what was measured."""
 
     keys: tuple[str, ...]
     values: Numbers  #: in SI units, as `case` has them
@@ -107,7 +107,7 @@ class _Runs:
             change = _STEP * (np.arange(len(self.start)) == j)
             self.units[key] = 1.0 if self.start[key] else 1e-6
             while (not self.start[key] and self.units[key] < min(limits[1][j], 1e12)
-                   and np.abs(force(_BEGIN + change) - before).max() < 1e-3 * before.max()):
+                   and np.abs(force(_BEGIN + change) - before).max() < 1e-3 * np.abs(before).max()):
                 self.units[key] *= 10.0
 
     def __call__(self, x: Numbers) -> Result:
@@ -148,15 +148,16 @@ def fit(
     shift: float | None = None,
     low_pass: float | None = None,
     gain: float = 1.0,
+    gauge: int = 1,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     progress: Callable[[int, float], object] | None = None,
 ) -> Fit:
-    """Finds the values of keys with which the force of the run differs least from the measured one,
+    """Finds the values of keys with which the force, or strain, of the run differs least from the measured one,
     by least squares. It begins with the values of the case, which must be likely ones.
 
     keys       numbers of the case: "striker.nose_radius", "contact.damping"
     shift      s, by which the measured time is later; None: it is found with the keys
-    low_pass   Hz, cut-off of the transducer; `gain`, measured over true force: both as `align` takes them
+    low_pass   Hz, cut-off of the transducer; `gain`, measured over true force; `gauge`: as `align` takes them
     bounds     least and largest values by key; the others are what the key allows
     progress   called with the number of runs and the root of the mean square of the difference, N
 
@@ -166,7 +167,7 @@ def fit(
     start = _start(as_case(case), [keys] if isinstance(keys, str) else list(keys))
     runs = _Runs(case, signal, start)
     n = len(start)
-    first = align(runs(np.full(n, _BEGIN)), signal, shift, gain, low_pass)
+    first = align(runs(np.full(n, _BEGIN)), signal, shift, gain, low_pass, gauge)
     apart = 20 * signal.interval  # a unit of the shift
     margin = 0.1 * (first.end - first.begin)
     later = signal.times - first.shift
@@ -175,7 +176,7 @@ def fit(
 
     def force(z: Numbers) -> Numbers:
         moved = first.shift + ((z[n] - _BEGIN) * apart if shift is None else 0.0)
-        computed = curve_of(runs(z[:n]), low_pass).at(times - moved)
+        computed = curve_of(runs(z[:n]), low_pass, column_of(signal, gauge)).at(times - moved)
         if progress is not None:
             progress(runs.n, float(np.sqrt(np.mean((computed - forces) ** 2))))
         return computed
@@ -193,4 +194,4 @@ def fit(
     with np.errstate(invalid="ignore"):
         related = covariance / np.outer(deviations, deviations)
     return Fit(tuple(start), np.array(list(values.values())), deviations * per_x, related,
-               align(runs(found[:n]), signal, shift, gain, low_pass), case.changed(values), runs.n)
+               align(runs(found[:n]), signal, shift, gain, low_pass, gauge), case.changed(values), runs.n)

@@ -116,6 +116,7 @@ _UNITS: Mapping[str, tuple[tuple[float, str, float], ...]] = {
     "force": ((1e3, "kN", 1e-3), (0.1, "N", 1.0), (0.0, "mN", 1e3)),
     "length": ((1e-4, "mm", 1e3), (1e-7, "µm", 1e6), (0.0, "nm", 1e9)),
     "energy": ((0.1, "J", 1.0), (1e-4, "mJ", 1e3), (0.0, "µJ", 1e6)),
+    "strain": ((0.0, "µm/m", 1e6),),
     "time": ((1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
 }
 
