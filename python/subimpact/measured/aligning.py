@@ -197,7 +197,7 @@ def curve_of(result: Result, cutoff: float | None = None, column: str = "force_N
     """The force of a run, or another column of its history, and as a transducer shows it."""
     if len(result.history) < 2:
         raise ResultsError("the run kept no history; run it again with output.interval above 0")
-    if column not in result.history.dtype.names:
+    if column not in (result.history.dtype.names or ()):
         raise ResultsError(f"the run has no {column}; give the case gauges, such as output.gauges = [{{ position = \"0.3 m\", "
                            "face = \"back\" }], and choose one with gauge=")
     times, forces = (np.ascontiguousarray(result.history[name]) for name in ("time_s", column))

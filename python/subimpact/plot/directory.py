@@ -105,6 +105,8 @@ def figures_of(directory: Path) -> dict[str, Figure]:
         return figures
     result = read_results(directory)
     figures = {name: _figure(draw, result) for name, draw in _OF_RUN.items()}
+    if result["output.gauges"]:
+        figures["gauges"] = _figure(run.gauges, result)
     if len(result.strikes):
         figures["strikes"] = _figure(beam.strikes, result)
     return figures

@@ -50,6 +50,21 @@ def force(result: Result, axes: Any) -> None:
         legend_above(axes)
 
 
+@figure([[0]], height=2.8)
+def gauges(result: Result, axes: Any) -> None:
+    """Strain of every gauge over time, positive in tension. Shaded: sub-impacts, hatched where they are not certain."""
+    history, places = _history(result), result["output.gauges"]
+    if not places:
+        raise Absent("the run has no gauge; run it again with output.gauges, such as [{ position = 0.3, face = \"back\" }]")
+    time_unit, t = unit("time", result.time)
+    _shade(axes, result, t)
+    lines = [axes.plot(t * history["time_s"], 1e6 * history[f"gauge_{k}_strain"], linewidth=0.8,
+                       label=f"{place['face']}, {place['position'] * result['beam.length']:.4g} m")[0]
+             for k, place in enumerate(places, 1)]
+    axes.set(xlabel=f"time, {time_unit}", ylabel="strain, µm/m", xlim=(0, t * result.time))
+    legend_above(axes, lines)
+
+
 @figure([[0], [1]], height=5.2, sharex=True)
 def response(result: Result, axes: Any) -> None:
     """Contact force and displacements over the strike: w_c of the struck point, w_m of the striker or
