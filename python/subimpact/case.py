@@ -21,9 +21,11 @@ class Key:
     """One key of a case."""
 
     name: str  #: with its table: "beam.length"
-    type: str  #: "number", "count", "flag", "text", "choice", "pair" or "numbers"
+    type: str  #: "number", "count", "flag", "text", "choice", "pair", "numbers" or "placed"
     unit: str  #: "" for none
     allowed: str  #: in words: "a number, above 0 (m)"
+    least: float | None  #: of a number, or the limit above which it lies; None: any
+    most: float | None
     choices: tuple[str, ...]  #: of "choice" and "pair"; words for a "number"
     required: bool  #: has no default
     default: str  #: in words or as a case file has it

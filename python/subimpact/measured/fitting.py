@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -53,16 +52,6 @@ class Fit:
     def plot(self, axes: Any = None) -> Any:
         """Draws both forces over the time of the run; returns the axes of Matplotlib."""
         return self.alignment.plot(axes)
-
-
-def _range(key: str) -> tuple[float, float]:
-    """The values that a key allows."""
-    words = all_keys()[key].allowed
-    if ends := re.search(r"from (\S+) .*?to ([0-9.e+-]*\d)", words.replace(",", " ")):
-        return float(ends[1]), float(ends[2])
-    least = 0.0 if "above 0" in words or "0 or above" in words else -math.inf
-    most = re.search(r"up to ([0-9.e+-]*\d)", words)
-    return least, float(most[1]) if most else math.inf
 
 
 def _start(case: Case, keys: Sequence[str]) -> dict[str, float]:
@@ -129,7 +118,9 @@ def _limits(runs: _Runs, bounds: Mapping[str, tuple[float, float]] | None) -> tu
     """Of what the fit changes: the range of each key, or what is given."""
     lower, upper = [], []
     for key, value in runs.start.items():
-        low, high = (bounds or {}).get(key) or _range(key)
+        known = all_keys()[key]
+        low, high = (bounds or {}).get(key) or (-math.inf if known.least is None else known.least,
+                                                math.inf if known.most is None else known.most)
         if not low <= value <= high:
             raise CaseError(f"{key} is {value:g}, and its bounds are {low:g} and {high:g}; begin between them", key)
         if value:
