@@ -8,12 +8,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._errors import CaseError
 from ._text import MOST_BYTES, is_unicode, printable, read_at_most
 from ._toml import dotted, flat, text_of
+
+if TYPE_CHECKING:
+    from .result import Result
 
 
 @dataclass(frozen=True)
@@ -182,6 +185,16 @@ class Case:
 
     def __iter__(self) -> Iterator[str]:
         return iter(_KEYS)
+
+    def keys(self) -> list[str]:
+        """The names of all keys, so that dict(case) has their values."""
+        return list(_KEYS)
+
+    def run(self, **options: Any) -> Result:
+        """The results of `subimpact.run(case, ...)`, with its options."""
+        from .running import run
+
+        return run(self, **options)
 
     def given(self) -> dict[str, Any]:
         """The keys that the case gives, with their values; all others have their defaults."""
