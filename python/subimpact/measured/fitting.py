@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -82,7 +83,7 @@ class _Runs:
         self.case = case.changed({**case.chosen(), **changes})  # one model for all runs
         self.start = start
         self.n = 0
-        self._kept: dict[tuple[float, ...], Result] = {}
+        self._result = functools.lru_cache(maxsize=9)(self._run)
 
     def values(self, x: Numbers) -> dict[str, float]:
         """At _BEGIN they are those of the start. Keys that begin at 0 change by a unit, others by a factor."""
@@ -100,18 +101,17 @@ class _Runs:
                 self.units[key] *= 10.0
 
     def __call__(self, x: Numbers) -> Result:
-        values = self.values(x)
-        at = tuple(values.values())
-        if at not in self._kept:
-            result = run(self.case.changed(values), error_bars="off", model_errors=False)
-            self.n += 1
-            if result.interrupted:
-                raise KeyboardInterrupt
-            if result.outcome not in ("completed", "inaccurate"):
-                where = ", ".join(f"{key} = {value:.6g}" for key, value in values.items())
-                raise ResultsError(f"the run with {where} ended {result.outcome}: {result.message}; begin elsewhere, or give bounds")
-            self._kept = {**dict(list(self._kept.items())[-8:]), at: result}
-        return self._kept[at]
+        return self._result(tuple(self.values(x).items()))
+
+    def _run(self, values: tuple[tuple[str, float], ...]) -> Result:
+        result = run(self.case.changed(dict(values)), error_bars="off", model_errors=False)
+        self.n += 1
+        if result.interrupted:
+            raise KeyboardInterrupt
+        if result.outcome not in ("completed", "inaccurate"):
+            where = ", ".join(f"{key} = {value:.6g}" for key, value in values)
+            raise ResultsError(f"the run with {where} ended {result.outcome}: {result.message}; begin elsewhere, or give bounds")
+        return result
 
 
 def _limits(runs: _Runs, bounds: Mapping[str, tuple[float, float]] | None) -> tuple[Numbers, Numbers]:

@@ -58,6 +58,22 @@ class Absent(LookupError):
     """A figure that cannot be drawn of these results: the reason, and what to do."""
 
 
+def present(table: Any, otherwise: str) -> Any:
+    """The table, if it has rows. Raises Absent with what to do otherwise."""
+    if not len(table):
+        raise Absent(otherwise)
+    return table
+
+
+def grid_of(n: int, columns: int, height: float, least: float = 0.0) -> tuple[Any, dict[str, Any]]:
+    """So many panels in rows, each so high (inches), for `figure`."""
+    rows = -(-n // columns)
+    cells = np.full(rows * columns, -1)
+    cells[:n] = np.arange(n)
+    return (cells.reshape(rows, columns).tolist(),
+            {"empty_sentinel": -1, "figsize": (WIDTH, max(least, height * rows))})
+
+
 def style() -> AbstractContextManager[None]:
     """Sizes, fonts and colours for publication, whatever the user's settings of Matplotlib are."""
     context: AbstractContextManager[None] = matplotlib_style.context(["default", STYLE])
