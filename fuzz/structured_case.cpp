@@ -87,8 +87,8 @@ std::string any_value(const CaseKey& key, ByteSource& source) {
     }
     case KeyType::placed: {
       const std::string position = number();
-      const char* quantity = key.name == "beam.springs" ? "stiffness" : "force";
-      return fmt::format("[{{ position = {}, {} = {} }}]", position, quantity, number());
+      const std::string value = key.choices.empty() ? number() : any_choice(key, source);
+      return fmt::format("[{{ position = {}, {} = {} }}]", position, key.quantity(), value);
     }
   }
   return "0";

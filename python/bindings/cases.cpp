@@ -58,6 +58,8 @@ py::dict key_as_dict(const CaseKey& key) {
   dict["type"] = type_name(key.type);
   dict["unit"] = key.unit;
   dict["allowed"] = allowed_values(key);
+  dict["least"] = key.limits.minimum ? key.limits.minimum : key.limits.exclusive_minimum;
+  dict["most"] = key.limits.maximum;
   dict["choices"] = py::tuple(choices);
   dict["required"] = key.required;
   dict["default"] = key.default_text;

@@ -23,7 +23,7 @@ py::array table_named(const Finished& run, const std::string& name) {
   py::object found = py::none();
   for_each_run_table([&](const auto& of_run) {
     if (file != of_run.file) return;
-    found = table(of_run.columns, run.result.*of_run.rows);
+    found = table(of_run.columns_of(run.input.output), run.result.*of_run.rows);
   });
   if (found.is_none()) throw py::key_error(name);
   return found;

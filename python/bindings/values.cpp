@@ -9,6 +9,7 @@
 
 #include "bindings.h"
 #include "case/keys/units.h"
+#include "io/records/record.h"
 
 namespace subimpact::python {
 namespace {
@@ -66,37 +67,19 @@ std::optional<KeyValue> any_value(py::handle value) {
   return is_list ? list(value) : std::nullopt;
 }
 
-// A list of dicts: a position, and a number or a table of pairs.
+// A list of dicts, such as {"position": 0.5, "stiffness": "2 kN/m"}, with numbers of NumPy too.
 std::optional<KeyValue> placed(const CaseKey& key, py::handle value) {
-  PlacedValues values{key.leaf() == "forces" ? "force" : "stiffness", {}};
   try {
-    for (const py::handle item : py::iter(value)) {
-      const auto entry = py::cast<py::dict>(item);
-      auto& [position, table] = values.entries.emplace_back();
-      const auto number = [&](const py::handle& given, const std::string& unit) {
-        if (!py::isinstance<py::str>(given)) return given.cast<double>();
-        const auto value = value_in(unit, given.cast<std::string>());
-        if (!value) throw py::cast_error("another unit");
-        return *value;
-      };
-      position = entry["position"].cast<double>();
-      if (entry.size() != 2) return std::nullopt;
-      if (entry.contains("table") && values.quantity == "force") {
-        for (const auto& [time, force] :
-             entry["table"].cast<std::vector<std::pair<py::object, py::object>>>()) {
-          table.emplace_back(number(time, "s"), number(force, key.unit));
-        }
-      } else {
-        table = {{0.0, number(entry[values.quantity.c_str()], key.unit)}};
-      }
-      if (table.empty()) return std::nullopt;
-    }
-  } catch (const py::cast_error&) {
+    const py::object to_list = py::module_::import("operator").attr("methodcaller")("tolist");
+    const auto json =
+        py::module_::import("json").attr("dumps")(value, py::arg("default") = to_list);
+    const Json list = Json::parse(json.cast<std::string>());
+    return list.is_array() ? key_value_of(key, list) : std::nullopt;
+  } catch (const py::error_already_set&) {  // what JSON does not have
     return std::nullopt;
-  } catch (const py::error_already_set&) {
+  } catch (const Json::exception&) {  // inf, nan
     return std::nullopt;
   }
-  return values;
 }
 
 }  // namespace
@@ -132,18 +115,7 @@ py::object to_python(const std::optional<KeyValue>& value) {
         } else if constexpr (std::is_same_v<Value, std::string>) {
           return py::str(x);
         } else if constexpr (std::is_same_v<Value, PlacedValues>) {
-          py::list items;
-          for (const auto& [position, table] : x.entries) {
-            py::dict entry;
-            entry["position"] = position;
-            if (table.size() > 1) {
-              entry["table"] = py::cast(table);
-            } else {
-              entry[x.quantity.c_str()] = table.front().second;
-            }
-            items.append(entry);
-          }
-          return items;
+          return py::module_::import("json").attr("loads")(json_of(KeyValue(x)).dump());
         } else {
           py::list items;
           for (const auto& item : x) items.append(py::cast(item));

@@ -8,12 +8,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._errors import CaseError
 from ._text import MOST_BYTES, is_unicode, printable, read_at_most
 from ._toml import dotted, flat, text_of
+
+if TYPE_CHECKING:
+    from .result import Result
 
 
 @dataclass(frozen=True)
@@ -21,9 +24,11 @@ class Key:
     """One key of a case."""
 
     name: str  #: with its table: "beam.length"
-    type: str  #: "number", "count", "flag", "text", "choice", "pair" or "numbers"
+    type: str  #: "number", "count", "flag", "text", "choice", "pair", "numbers" or "placed"
     unit: str  #: "" for none
     allowed: str  #: in words: "a number, above 0 (m)"
+    least: float | None  #: of a number, or the limit above which it lies; None: any
+    most: float | None
     choices: tuple[str, ...]  #: of "choice" and "pair"; words for a "number"
     required: bool  #: has no default
     default: str  #: in words or as a case file has it
@@ -180,6 +185,16 @@ class Case:
 
     def __iter__(self) -> Iterator[str]:
         return iter(_KEYS)
+
+    def keys(self) -> list[str]:
+        """The names of all keys, so that dict(case) has their values."""
+        return list(_KEYS)
+
+    def run(self, **options: Any) -> Result:
+        """The results of `subimpact.run(case, ...)`, with its options."""
+        from .running import run
+
+        return run(self, **options)
 
     def given(self) -> dict[str, Any]:
         """The keys that the case gives, with their values; all others have their defaults."""

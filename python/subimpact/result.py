@@ -146,7 +146,10 @@ class Result:
 
     def __getitem__(self, key: str) -> Any:
         """The value of a key of the case that was run, with every choice made."""
-        return self._finished.value(key)
+        try:
+            return self._finished.value(key)
+        except KeyError:
+            raise KeyError(f"{key} is no key of a case; tables are attributes, as in result.history[\"force_N\"]") from None
 
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes the files that `subimpact run` writes. Raises OutputError."""

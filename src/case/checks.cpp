@@ -187,7 +187,8 @@ void check_output(const Case& input) {
       "is given, but output.interval = 0 keeps no rows of them; leave it out, or set an "
       "output.interval above 0";
   check_rules({{!output.has_history() && !output.sections.empty(), "output.sections", no_rows},
-               {!output.has_history() && !output.points.empty(), "output.points", no_rows}});
+               {!output.has_history() && !output.points.empty(), "output.points", no_rows},
+               {!output.has_history() && !output.gauges.empty(), "output.gauges", no_rows}});
   check_rows(input, "output.shapes", output.shapes.value_or(0.0), output.shape_points,
              most_shape_rows, fmt::format("{}, up to {} per shape", to_end, output.shape_points),
              " or a smaller output.shape_points");

@@ -28,7 +28,7 @@ bool is_number_of_scene(const CaseKey& key) {
 
 std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key) {
   const bool is_of_mesh = key.type == KeyType::number && key.table() == "model";
-  const bool is_placed = key.type == KeyType::placed;
+  const bool is_placed = key.type == KeyType::placed && key.table() == "beam";
   if (!is_number_of_scene(key) && !is_of_mesh && !is_placed) {
     return fmt::format("is not a number of the scene or of its mesh; allowed here: {}",
                        fmt::join(shifted_keys(input), ", "));
@@ -66,7 +66,8 @@ std::vector<std::string> shifted_keys(const Case& input) {
   std::vector<std::string> names;
   for (const CaseKey& key : case_keys()) {
     const bool is_second_name = key.name == "contact.beam_poisson" && input.scene.beam.poisson;
-    const bool is_of_scene = is_number_of_scene(key) || key.type == KeyType::placed;
+    const bool is_of_scene =
+        is_number_of_scene(key) || (key.type == KeyType::placed && key.table() == "beam");
     if (!is_of_scene || is_second_name) continue;
     if (!why_not_shifted(input, key)) names.push_back(key.name);
   }

@@ -30,7 +30,7 @@ std::vector<Row> read_table(const RunTable<Row>& table, const FinishedRun& run, 
   RowOrder order(name);
   RowThinning<Row> rows(table.n_instants ? group * table.n_instants(run.result) : 0, group,
                         table.drawn);
-  for_each_row(csv, table.columns, [&](const Row& row) {
+  for_each_row(csv, table.columns_of(run.input.output), [&](const Row& row) {
     order.check(row);
     rows.add(row);
   });

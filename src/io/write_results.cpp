@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <any>
 #include <cerrno>
 #include <cstring>
 
@@ -21,15 +22,18 @@ namespace fs = std::filesystem;
 class ResultWriter::RowFile {
  public:
   template <class Row>
-  explicit RowFile(const RunTable<Row>& table)
-      : name_(table.file), heading_(csv_heading(table.columns)), pending_(heading_) {}
+  explicit RowFile(const RunTable<Row>& table, const OutputOptions& output = {})
+      : name_(table.file),
+        columns_(table.columns_of(output)),
+        heading_(csv_heading(table.columns_of(output))),
+        pending_(heading_) {}
   ~RowFile() { leave_directory(); }
   RowFile(const RowFile&) = delete;
   RowFile& operator=(const RowFile&) = delete;
 
   template <class Row>
   void add(const Row& row) {
-    append_row(pending_, run_table<Row>().columns, row, numbers_);
+    append_row(pending_, std::any_cast<const Columns<Row>&>(columns_), row, numbers_);
   }
   bool is_full() const { return pending_.size() > most_pending; }
 
@@ -80,6 +84,7 @@ class ResultWriter::RowFile {
   }
 
   std::string name_;
+  std::any columns_;  // Columns of its rows
   std::string heading_;
   std::string pending_;
   NumberWriter numbers_;
@@ -93,6 +98,7 @@ namespace {
 constexpr double bytes_per_history_row = 345.0;
 constexpr double bytes_per_section_row = 97.0;
 constexpr double bytes_per_point_row = 80.0;
+constexpr double bytes_per_gauge = 23.0;
 constexpr double bytes_per_shape_row = 105.0;
 
 constexpr const char* case_name = "case.toml";
@@ -142,7 +148,8 @@ double expected_bytes(const Case& input, std::optional<std::size_t> n_shape_poin
   const double bytes_per_row =
       bytes_per_history_row +
       bytes_per_section_row * static_cast<double>(input.output.sections.size()) +
-      bytes_per_point_row * static_cast<double>(input.output.points.size());
+      bytes_per_point_row * static_cast<double>(input.output.points.size()) +
+      bytes_per_gauge * static_cast<double>(input.output.gauges.size());
   return of_shapes + input.end_time / input.output.history_interval(input.end_time) * bytes_per_row;
 }
 
@@ -150,7 +157,7 @@ ResultWriter::ResultWriter(const fs::path& directory, const Case& input)
     : directory_(directory, "run") {
   check_space(directory_, input);
   const OutputOptions& output = input.output;
-  history_ = std::make_unique<RowFile>(run_table<HistoryRow>());
+  history_ = std::make_unique<RowFile>(run_table<HistoryRow>(), output);
   if (!output.sections.empty()) sections_ = std::make_unique<RowFile>(run_table<SectionRow>());
   if (!output.points.empty()) points_ = std::make_unique<RowFile>(run_table<PointRow>());
 }

@@ -193,6 +193,13 @@ def test_a_case_may_come_through_a_pipe(elastic, tmp_path):
     writer.join()
 
 
+def test_a_case_becomes_a_dict_of_its_values(elastic):
+    assert dict(elastic) == elastic.as_dict() and list(elastic.keys()) == list(elastic)
+    known = si.keys()
+    assert (known["beam.poisson"].least, known["beam.poisson"].most) == (0.0, 0.5)
+    assert known["beam.load"].least is None and known["beam.length"].most is None
+
+
 def test_identity_depends_on_values_but_not_on_the_title(elastic):
     other = elastic.changed({"title": "another"})
     assert other.identity() == elastic.identity()

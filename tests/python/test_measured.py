@@ -164,6 +164,28 @@ def test_forces_that_are_alike_differ_by_their_gain_alone(strike):
     assert "1.25" not in repr(found) and "-20 %" in repr(found)
 
 
+def test_a_strain_is_laid_beside_its_gauge_and_fitted(elastic, tmp_path):
+    case = elastic.changed({"time.end": 3e-4, "output.sections": [], "output.points": [], "output.shapes": 0.0, "output.interval": 5e-7,
+                            "output.gauges": [{"position": 0.5}, {"position": "0.3 m", "face": "front"}]})
+    history = si.run(case, error_bars="off", model_errors=False).history
+    times, strains = np.array(history["time_s"]), np.array(history["gauge_2_strain"])
+    t = np.arange(0, 3e-4, 1e-6)
+    sampled = np.interp(t, times, strains)
+    path = tmp_path / "strain.csv"
+    np.savetxt(path, np.c_[1e3 * (t + 2e-4), 1e6 * sampled], delimiter=";", header="t [ms];gauge [µm/m]", comments="", encoding="utf-8")
+    signal = measured.read(path)
+    assert signal.quantity == "strain" and np.abs(signal.forces - sampled).max() < 1e-9
+    found = measured.align(si.run(case, error_bars="off"), signal, gauge=2)
+    assert found.shift == pytest.approx(2e-4, abs=2e-8) and found.correlation > 0.9999
+    assert found.measured.peak == pytest.approx(sampled[np.abs(sampled).argmax()], rel=1e-3)
+    assert "largest strain" in repr(found) and "um/m" in repr(found) and "impulse" not in repr(found)
+    assert found.plot().get_ylabel() == "strain, µm/m"
+    with pytest.raises(si.ResultsError, match="output.gauges"):
+        measured.align(si.run(case, error_bars="off"), signal, gauge=3)
+    fit = measured.fit(case.changed({"striker.velocity": 14.0}), signal, "striker.velocity", gauge=2)
+    assert fit.values[0] == pytest.approx(15.9, rel=1e-3)
+
+
 def test_neighbours_that_resemble_each_other_widen_the_error(strike):
     white = signal_of(strike, noise=0.01)
     noise = np.random.default_rng(1).normal(size=len(white.times) + 24)

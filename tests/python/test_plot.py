@@ -136,6 +136,18 @@ def test_curves_are_the_columns_of_the_history_in_the_units_of_the_axes(run):
     assert bottom.get_xlabel() == "time, ms" and bottom.get_ylabel() == "displacement, mm"
 
 
+def test_gauges_have_a_figure_where_there_are_any(run, tmp_path):
+    with pytest.raises(plot.Absent, match="output.gauges"):
+        plot.gauges(run)
+    case = si.Case.from_text(ELASTIC, "e.toml").changed({"time.end": 1e-4, "output.gauges": [{"position": "0.2 m"}, {"position": 0.5, "face": "front"}]})
+    struck = si.run(case, error_bars="off")
+    axes = plot.gauges(struck)
+    np.testing.assert_array_equal(axes.lines[1].get_ydata(), 1e6 * struck.history["gauge_2_strain"])
+    assert "back, 0.2 m" in words(axes) and "front, " in words(axes) and axes.get_ylabel() == "strain, µm/m"
+    struck.write(tmp_path / "run")
+    assert "gauges" in plot.draw_directory(tmp_path / "run", formats=["svg"]).captions
+
+
 def test_axes_that_are_given_are_drawn_into(run):
     axes = matplotlib.figure.Figure().add_subplot()
     assert run.plot(axes) is axes and plot.force(run, axes) is axes and len(axes.lines) == 2

@@ -229,6 +229,25 @@ def test_a_result_is_the_same_after_pickling(elastic):
             assert other.tobytes() == one.tobytes(), name
 
 
+def test_gauges_are_columns_of_the_history_after_files_and_pickling_too(elastic, tmp_path):
+    case = elastic.changed({"time.end": 1e-4, "output.gauges": [{"position": np.float64(0.5)}, {"position": "0.3 m", "face": "front"}]})
+    assert case["output.gauges"] == [{"position": 0.5, "face": "back"}, {"position": "0.3 m", "face": "front"}]
+    result = case.run(error_bars="off", out=tmp_path)
+    assert result["output.gauges"][1] == {"position": 0.3 / case["beam.length"], "face": "front"}
+    assert result.history.dtype.names[-2:] == ("gauge_1_strain", "gauge_2_strain") and np.ptp(result.history["gauge_2_strain"]) > 0
+    for other in (si.read_results(tmp_path), pickle.loads(pickle.dumps(result))):
+        for column in ("time_s", "gauge_1_strain", "gauge_2_strain"):
+            np.testing.assert_array_equal(other.history[column], result.history[column])
+    assert "gauge_1_strain" not in si.run(elastic.changed({"time.end": 1e-5}), error_bars="off").history.dtype.names
+    for gauges, words in (([{"position": 1.2}], "position 1.2"), ([{"position": 0.2, "face": "top"}], 'face "top"')):
+        with pytest.raises(si.CaseError, match=words):
+            case["output.gauges"] = gauges
+    with pytest.raises(si.CaseError, match="up to the beam's"):
+        case.changed({"output.gauges": [{"position": "0.9 m"}]}).check()
+    with pytest.raises(KeyError, match="result.history"):
+        result["gauge_1_strain"]
+
+
 def test_a_table_becomes_one_of_pandas_by_its_name(elastic):
     pandas = pytest.importorskip("pandas")
     result = si.run(elastic, error_bars="off")

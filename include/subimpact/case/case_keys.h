@@ -17,13 +17,15 @@
 
 namespace subimpact {
 
-/// Loads or springs at points, each with a position and, under the name `quantity`, a number or a
-/// table of pairs (t, F): [{ position = 0.5, stiffness = 100 }].
+/// Loads, springs or gauges at points, each with a position and, under the name `quantity`, a
+/// number, a table of pairs (t, F) or a word: [{ position = 0.5, stiffness = 100 }].
 struct PlacedValues {
-  std::string quantity;  ///< "stiffness", "force"
+  std::string quantity;  ///< "stiffness", "force", "face"
   struct Entry {
-    double position = 0.0;
+    double position = 0.0;                         ///< as a fraction of the length, or in m
     std::vector<std::pair<double, double>> table;  ///< a plain number is one pair (0, number)
+    std::string word = {};                         ///< in place of a table
+    bool in_metres = false;
     bool operator==(const Entry&) const = default;
   };
   std::vector<Entry> entries;
@@ -42,7 +44,7 @@ enum class KeyType {
   choice,   ///< one of the key's choices
   pair,     ///< two of the key's choices
   numbers,  ///< a list of finite numbers
-  placed    ///< a list of loads or springs at points (PlacedValues)
+  placed    ///< a list of loads, springs or gauges at points (PlacedValues)
 };
 
 /// A name a key accepts, with a line on what it stands for.
@@ -68,7 +70,7 @@ struct CaseKey {
   std::string unit;             ///< empty: none
   std::string range;            ///< in words, for numbers and counts, each of a list: "above 0"
   Limits limits;                ///< the same, to check and to write schemas with
-  std::vector<Choice> choices;  ///< for choice and pair
+  std::vector<Choice> choices;  ///< for choice, pair and faces
   bool required;                ///< has no default
   /// Whether other keys of the case make a required key needless; empty: always needed.
   std::function<bool(const Case&)> is_needless;
@@ -82,6 +84,7 @@ struct CaseKey {
   std::string table() const;  ///< "beam"; empty for a key outside all tables
   std::string leaf() const;   ///< "length"
   std::vector<std::string> choice_names() const;
+  const char* quantity() const;  ///< of the things at points: "force", "stiffness", "face"
 };
 
 /// All keys, in the order in which they are written and listed.

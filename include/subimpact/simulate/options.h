@@ -53,6 +53,17 @@ struct AccuracyOptions {
   std::optional<double> energy;
 };
 
+/// A side of the beam: the one that is struck, or the one behind.
+enum class Face { front, back };
+
+/// A strain gauge along the axis of the beam. It reads eps = kappa h/2 in front and -kappa h/2 on
+/// the back, with the curvature kappa there (1/m) and the height h of the section (m), positive in
+/// tension.
+struct Gauge {
+  double position = 0.0;  ///< x, as a fraction of the length
+  Face face = Face::back;
+};
+
 enum class StopRule {
   end_time,        ///< at the end time
   no_more_contact  ///< sooner, once it is proven that no contact can follow
@@ -67,6 +78,7 @@ struct OutputOptions {
   double opening = 0.0;          ///< m: contacts parted by less are joined; 0: none
   std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
   std::vector<double> points;    ///< points whose motion is kept, as fractions of the length
+  std::vector<Gauge> gauges;     ///< whose strains are kept
   /// s between shapes, the fields along the whole beam; 0: none, and no envelope; empty: about 400
   /// shapes, or none in a run without history rows.
   std::optional<double> shapes;
@@ -95,6 +107,7 @@ struct OutputOptions {
     interval = 0.0;
     sections.clear();
     points.clear();
+    gauges.clear();
     shapes = 0.0;
   }
 };

@@ -44,6 +44,7 @@ struct HistoryRow {
   double work = 0.0;          ///< W
   /// N, of the supports on the beam, positive in the direction of the strike; none at a free end.
   std::optional<double> first_reaction, last_reaction;
+  std::vector<double> gauge_strains;  ///< of output.gauges, in that order; tension: above 0
 };
 
 /// One row of sections.csv: a section whose bending is kept, at the time of a history row.

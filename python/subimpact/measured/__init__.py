@@ -1,4 +1,4 @@
-"""Measured contact forces: read as instruments write them, compared with a run, fitted by a case.
+"""Measured contact forces and strains: read as instruments write them, compared with a run, fitted by a case.
 
     from subimpact import measured
 

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import sys
+from contextlib import closing
 from pathlib import Path
 from typing import NoReturn
 
@@ -81,16 +82,13 @@ def _parser() -> argparse.ArgumentParser:
 
 def _write(run: str, directory: str, alignment: Alignment) -> list[str]:
     """Writes what the page shows, and returns what there is to say. Raises OutputError."""
-    output = _core.OutputDirectory(path_text(directory, OutputError), "figures", 0.0, identity_of(Path(run)))
-    try:
+    page = {"answers": alignment.answers(), "doubt": alignment.doubt, "caption": " ".join((draw_all.__doc__ or "").split()),
+            "overlay": [packed(side.times, side.forces) for side in (alignment.measured, alignment.computed)]}
+    with closing(_core.OutputDirectory(path_text(directory, OutputError), "figures", 0.0, identity_of(Path(run)))) as output:
         save(draw_all(alignment), Path(output.staging) / "measured", ("svg",))
-        page = {"answers": alignment.answers(), "doubt": alignment.doubt, "caption": " ".join((draw_all.__doc__ or "").split()),
-                "overlay": [packed(side.times, side.forces) for side in (alignment.measured, alignment.computed)]}
         (Path(output.staging) / "measured.json").write_text(json.dumps(page) + "\n", encoding="utf-8")
         output.commit()
         return output.notes
-    finally:
-        output.close()
 
 
 def main(arguments: list[str] | None = None) -> int:

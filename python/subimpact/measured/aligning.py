@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, Union
 
 import numpy as np
@@ -71,13 +72,34 @@ def covariance_of(jacobian: Numbers, residuals: Numbers) -> Numbers:
     return widened
 
 
+def solve(model: Callable[[Numbers], Numbers], forces: Numbers, start: Numbers, steps: Numbers, bounds: Numbers,
+          **options: Any) -> tuple[Numbers, Numbers]:
+    """The parameters with which a model differs least from forces, and their covariance. `steps`: half the change of each
+    parameter for its derivative; `bounds`: of two rows; `options`: of scipy.optimize.least_squares."""
+    from scipy.optimize import least_squares
+
+    size = float(np.abs(forces).max())  # strains are small beside the tolerance of gradients
+
+    def jacobian(x: Numbers) -> Numbers:
+        columns = []
+        for j, step in enumerate(steps):
+            down, up = x.copy(), x.copy()
+            down[j], up[j] = max(x[j] - step, bounds[0][j]), min(x[j] + step, bounds[1][j])
+            columns.append((model(up) - model(down)) / (size * (up[j] - down[j])))
+        return np.stack(columns, axis=1)
+
+    inside = np.clip(start, bounds[0] + 1e-6, bounds[1] - 1e-6)
+    found = least_squares(lambda x: (model(x) - forces) / size, inside, jac=jacobian, bounds=tuple(bounds), **options)
+    return found.x, covariance_of(found.jac, found.fun)
+
+
 def correlation(one: Numbers, other: Numbers) -> float:
     """1 if they differ only by a factor."""
     size = float(np.sqrt((one @ one) * (other @ other)))
     return float(one @ other) / size if size > 0.0 else 0.0
 
 
-class _Curve:
+class Curve:
     """A force, linear between its samples and zero before them."""
 
     def __init__(self, times: Numbers, forces: Numbers) -> None:
@@ -103,19 +125,19 @@ class _Curve:
 
 @dataclass(frozen=True)
 class Side:
-    """One of the two forces on the time of the run."""
+    """One of the two forces, or strains, on the time of the run."""
 
     times: Numbers  #: s
     forces: Numbers  #: N; the computed one as filtered, the measured one divided by the gain
-    peak: float  #: N, the largest in the time that both cover
+    peak: float  #: N, the largest in the time that both cover; of strains that of the largest magnitude
     peak_time: float  #: s
     impulse: float  #: N s, in that time
     contact: float  #: s, how long in that time the force is above 5 % of its largest value
 
 
-def _side(curve: _Curve, begin: float, end: float) -> Side:
+def _side(curve: Curve, begin: float, end: float) -> Side:
     times, forces = curve.within(begin, end)
-    top = int(np.argmax(forces))
+    top = int(np.argmax(np.abs(forces)))
     steps, limit = np.diff(times), _IN_CONTACT * forces[top]
     low, high = np.minimum(forces[1:], forces[:-1]), np.maximum(forces[1:], forces[:-1])
     share = np.clip((high - limit) / np.where(high > low, high - low, 1.0), 0.0, 1.0)
@@ -143,12 +165,13 @@ class Alignment:
     measured: Side
     difference: tuple[Numbers, Numbers]  #: times and forces, computed less measured
     at_bound: bool  #: whether the cut-off found is at an end of the searched range
+    quantity: str = "force"  #: or "strain": what is named a force here is then the strain of a gauge, m/m
 
     @property
     def doubt(self) -> str:
         """Why the comparison may mean nothing; "" if no reason was found."""
         if self.correlation < _LIKE_EACH_OTHER:
-            return (f"the two forces have a correlation of {self.correlation:.2f}, and two of the same strike more than "
+            return (f"the two {self.quantity}s have a correlation of {self.correlation:.2f}, and two of the same strike more than "
                     f"{_LIKE_EACH_OTHER}: the case is not that of the measurement, or the shift or the filter is wrong")
         if self.at_bound:
             return ("the cut-off found is at an end of the searched range: the measurement shows no low-pass filter of fourth "
@@ -164,43 +187,40 @@ class Alignment:
         return "\n".join(lines + ([f"warning: {self.doubt}"] if self.doubt else []))
 
     def plot(self, axes: Any = None) -> Any:
-        """Draws both forces over the time of the run; returns the axes of Matplotlib."""
+        """Draws both over the time of the run; returns the axes of Matplotlib."""
         from .drawing import draw_forces
 
         return draw_forces(self, axes)
 
 
-def curve_of(result: Result, cutoff: float | None = None) -> _Curve:
-    """The force of a run, and as a transducer shows it."""
+def curve_of(result: Result, cutoff: float | None = None, column: str = "force_N") -> Curve:
+    """The force of a run, or another column of its history, and as a transducer shows it."""
     if len(result.history) < 2:
         raise ResultsError("the run kept no history; run it again with output.interval above 0")
-    times, forces = (np.ascontiguousarray(result.history[name]) for name in ("time_s", "force_N"))
-    return _Curve(times, forces if cutoff is None else low_passed(times, forces, cutoff))
+    if column not in (result.history.dtype.names or ()):
+        raise ResultsError(f"the run has no {column}; give the case gauges, such as output.gauges = [{{ position = \"0.3 m\", "
+                           "face = \"back\" }], and choose one with gauge=")
+    times, forces = (np.ascontiguousarray(result.history[name]) for name in ("time_s", column))
+    return Curve(times, forces if cutoff is None else low_passed(times, forces, cutoff))
 
 
 class _Search:
-    """Looks for the shift, and the cut-off, at which a measured force resembles a computed one."""
+    """Looks for shift, cut-off and gain at which a measured force resembles a computed one."""
 
-    def __init__(self, computed: _Curve, measured: Signal, shift: float | None) -> None:
+    def __init__(self, computed: Curve, measured: Signal, shift: float | None) -> None:
         self.raw, self.measured, self.given = computed, measured, shift
         self.duration = float(computed.times[-1] - computed.times[0])
         record = float(measured.times[-1] - measured.times[0])
         self.width = max(measured.interval, self.duration / 2**15, record / 2**19)
-        self._bins = _Curve(measured.times, measured.forces).means(self.width)
-        self.bounds = np.log([2.0 / min(self.duration, record), 0.5 / measured.interval])
+        self._bins = Curve(measured.times, measured.forces).means(self.width)
+        self.cutoffs = np.log([2.0 / min(self.duration, record), 0.5 / measured.interval])  # the range, of logarithms
+        self.filtered = functools.lru_cache(maxsize=4)(self._filtered)
 
-    @cached_property
-    def _samples(self) -> slice:
-        """Those about the run at the best guess: near a solution they must not change."""
-        margin = max(8 * self.measured.interval, 2 * self.width)
-        begin, end = self.guess + self.raw.times[0] - 0.1 * self.duration, self.guess + self.raw.times[-1]
-        first, last = np.searchsorted(self.measured.times, [begin, end - (0.0 if self.given is not None else margin)])
-        return slice(int(first), int(last))
+    def _filtered(self, x: float | None) -> Curve:
+        """With the logarithm of a cut-off."""
+        return self.raw if x is None else Curve(self.raw.times, low_passed(self.raw.times, self.raw.forces, float(np.exp(x))))
 
-    def filtered(self, x: float | None) -> _Curve:
-        return self.raw if x is None else _Curve(self.raw.times, low_passed(self.raw.times, self.raw.forces, float(np.exp(x))))
-
-    def coarse(self, curve: _Curve) -> tuple[float, float]:
+    def coarse(self, curve: Curve) -> tuple[float, float]:
         """The correlation at the best shift, or at the one given, and that shift."""
         from scipy.signal import correlate
 
@@ -213,51 +233,45 @@ class _Search:
         n = int(np.searchsorted(times, curve.times[-1], "right"))
         return correlation(curve.at(times[:n]), self.measured.forces[:n]), shift
 
-    def solve(self, low_pass: Found) -> tuple[float, float | None, Numbers, _Curve]:
-        """Shift, logarithm of the cut-off, their variances with that of the gain, the computed force."""
-        from scipy.optimize import least_squares
+    def _samples(self, guess: float) -> tuple[Numbers, Numbers]:
+        """Those about the run at the best guess: near a solution they must not change."""
+        margin = 0.0 if self.given is not None else max(8 * self.measured.interval, 2 * self.width)
+        begin, end = guess + self.raw.times[0] - 0.1 * self.duration, guess + self.raw.times[-1] - margin
+        about = slice(*np.searchsorted(self.measured.times, [begin, end]))
+        return self.measured.times[about], self.measured.forces[about]
 
-        find = low_pass == "find"
-        x = None if low_pass is None else float(np.log(float(low_pass))) if not find else None
+    def solve(self, low_pass: Found) -> tuple[Numbers, Numbers, Curve]:
+        """Shift, logarithm of the cut-off and gain, their errors (NaN where given), the computed force."""
+        find, unit = low_pass == "find", self.measured.interval
+        x = None if low_pass is None or find else float(np.log(float(low_pass)))
         if find:
-            grid = np.arange(self.bounds[1], self.bounds[0], -_OCTAVE / 3)
+            grid = np.arange(self.cutoffs[1], self.cutoffs[0], -_OCTAVE / 3)
             x = float(max(grid, key=lambda x: self.coarse(self.filtered(x))[0]))
-        self.guess = self.coarse(self.filtered(x))[1]
-        times, forces = self.measured.times[self._samples], self.measured.forces[self._samples]
-        free = [self.given is None, find, True]
-        unit = np.array([self.measured.interval, 1.0, 1.0])
-        start = np.array([self.guess, x or 0.0, 1.0])
-        step, ratio = 0.5 * self.measured.interval, 1e-3
+        guess = self.coarse(self.filtered(x))[1]
+        times, forces = self._samples(guess)
+        shape = self.filtered(x).at(times - guess)
+        values = np.array([guess / unit, x or 0.0, float(shape @ forces) / (float(shape @ shape) or 1.0)])
+        free = np.array([self.given is None, find, True])
 
-        def whole(free_values: Numbers) -> Numbers:
-            values = start.copy()
-            values[free] = free_values * unit[free]
-            return values
+        def force(free_values: Numbers) -> Numbers:
+            values[free] = free_values
+            shift, y, gain = values
+            computed: Numbers = gain * self.filtered(None if low_pass is None else float(y)).at(times - unit * shift)
+            return computed
 
-        def residuals(free_values: Numbers) -> Numbers:
-            shift, y, gain = whole(free_values)
-            difference: Numbers = gain * self.filtered(y if low_pass is not None else None).at(times - shift) - forces
-            return difference
+        bounds = np.array([[-np.inf, self.cutoffs[0], -np.inf], [np.inf, self.cutoffs[1], np.inf]])
+        found, covariance = solve(force, forces, values[free], np.array([0.5, 1e-3, 0.5])[free], bounds[:, free],
+                                  x_scale="jac", xtol=1e-12)
+        values[free] = found
+        errors = np.full(3, np.nan)
+        errors[free] = N_ERRORS * np.sqrt(np.diag(covariance))
+        in_seconds = np.array([unit, 1.0, 1.0])
+        return values * in_seconds, errors * in_seconds, self.filtered(None if low_pass is None else float(values[1]))
 
-        def jacobian(free_values: Numbers) -> Numbers:
-            shift, y, gain = whole(free_values)
-            curve, at = self.filtered(y if low_pass is not None else None), times - shift
-            columns = [gain * (curve.at(at - step) - curve.at(at + step)) / (2 * step) * unit[0],
-                       gain * (self.filtered(y + ratio).at(at) - self.filtered(y - ratio).at(at)) / (2 * ratio) if find else at,
-                       curve.at(at)]
-            return np.stack([column for column, is_free in zip(columns, free) if is_free], axis=1)
 
-        shape = self.filtered(x).at(times - self.guess)
-        start[2] = float(shape @ forces) / (float(shape @ shape) or 1.0)
-        lower = np.array([-np.inf, self.bounds[0], -np.inf])
-        upper = np.array([np.inf, self.bounds[1], np.inf])
-        first = np.clip(start / unit, lower + 1e-6, upper - 1e-6)
-        found = least_squares(residuals, first[free], jac=jacobian, bounds=(lower[free], upper[free]), x_scale="jac", xtol=1e-12)
-        variances = np.full(3, np.nan)
-        variances[free] = np.diag(covariance_of(found.jac, found.fun)) * unit[free] ** 2
-        shift, y, self.gain = whole(found.x)
-        x = float(y) if low_pass is not None else None
-        return float(shift), x, variances, self.filtered(x)
+def column_of(signal: Signal, gauge: int) -> str:
+    """The column of history.csv that a signal is compared with."""
+    return "force_N" if signal.quantity == "force" else f"gauge_{gauge}_strain"
 
 
 def _check_pushes(forces: Numbers, whose: str, remedy: str) -> None:
@@ -267,8 +281,8 @@ def _check_pushes(forces: Numbers, whose: str, remedy: str) -> None:
 
 
 def align(result: Result, signal: Signal, shift: float | None = None, gain: float | Literal["find"] = 1.0,
-          low_pass: Found = None) -> Alignment:
-    """Compares a measured force with the history of a run, whose force is zero before it begins.
+          low_pass: Found = None, gauge: int = 1) -> Alignment:
+    """Compares a measured force, or a strain, with the history of a run, whose force is zero before it begins.
 
     shift     s, by which the measured time is later than that of the run; None: it is found, where
               the two forces differ least
@@ -276,34 +290,36 @@ def align(result: Result, signal: Signal, shift: float | None = None, gain: floa
     low_pass  Hz, the cut-off of the transducer, by which the computed force is filtered: `low_passed`;
               "find": that with which the forces differ least, between two periods within the record
               and half of the sampling rate
+    gauge     of a measured strain: the number, from 1, of the gauge in output.gauges
 
-    Raises ResultsError if there is no common time, the run has no history or no force.
+    Raises ResultsError if there is no common time, the run has no history, no force or no such gauge.
     """
-    raw = curve_of(result)
-    _check_pushes(raw.forces, "computed", "a run without contact has no force to compare with a measurement")
-    _check_pushes(signal.forces, "measured", "contact pushes, and its force is positive here: read it with sign=-1")
+    raw = curve_of(result, column=column_of(signal, gauge))
+    if signal.quantity == "force":
+        _check_pushes(raw.forces, "computed", "a run without contact has no force to compare with a measurement")
+        _check_pushes(signal.forces, "measured", "contact pushes, and its force is positive here: read it with sign=-1")
     search = _Search(raw, signal, shift)
     if shift is not None:
         _check_common(shift, signal, raw)
-    found_shift, x, variances, computed = search.solve(low_pass)
+    (found_shift, x, found_gain), (shift_error, x_error, gain_error), computed = search.solve(low_pass)
     begin, end = _check_common(found_shift, signal, raw)
-    factor = float(search.gain) if gain == "find" else float(gain)
+    factor = float(found_gain if gain == "find" else gain)
     times, forces = signal.times - found_shift, signal.forces / factor
     inside = (times >= begin) & (times <= end)
     here = computed.at(times[inside])
-    errors = [N_ERRORS * float(np.sqrt(variance)) if variance >= 0.0 else None for variance in variances]
-    cutoff = float(np.exp(x)) if x is not None else None
+    cutoff = None if low_pass is None else float(np.exp(x))
+    find = low_pass == "find"
     return Alignment(
-        shift=found_shift, shift_error=errors[0],
-        low_pass=cutoff, low_pass_error=errors[1] * cutoff if cutoff and errors[1] is not None else None,
-        gain=factor, gain_error=errors[2] if gain == "find" else None,
+        shift=float(found_shift), shift_error=float(shift_error) if shift is None else None,
+        low_pass=cutoff, low_pass_error=float(x_error) * cutoff if cutoff and find else None,
+        gain=factor, gain_error=float(gain_error) if gain == "find" else None,
         correlation=correlation(here, forces[inside]), interval=signal.interval, begin=begin, end=end,
-        computed=_side(computed, begin, end), measured=_side(_Curve(times, forces), begin, end),
+        computed=_side(computed, begin, end), measured=_side(Curve(times, forces), begin, end),
         difference=(times[inside], here - forces[inside]),
-        at_bound=low_pass == "find" and x is not None and float(np.min(np.abs(search.bounds - x))) < 1e-2)
+        at_bound=find and float(np.min(np.abs(search.cutoffs - x))) < 1e-2, quantity=signal.quantity)
 
 
-def _check_common(shift: float, signal: Signal, run: _Curve) -> tuple[float, float]:
+def _check_common(shift: float, signal: Signal, run: Curve) -> tuple[float, float]:
     """The time of the run that both cover."""
     begin = max(float(signal.times[0]) - shift, float(run.times[0]))
     end = min(float(signal.times[-1]) - shift, float(run.times[-1]))

@@ -39,21 +39,22 @@ def packed(times: Numbers, forces: Numbers) -> dict[str, dict[str, str]]:
             "force_N": {"f32": base64.b64encode(forces.astype("<f4").tobytes()).decode()}}
 
 
-def _line(axes: Any, times: Numbers, forces: Numbers, begin: float, end: float, largest: float, **options: Any) -> None:
-    """Of the time from begin to end, in units that suit the end and the largest force."""
-    (time, per_second), (force, per_newton) = unit("time", end), unit("force", largest)
+def _line(axes: Any, quantity: str, times: Numbers, forces: Numbers, begin: float, end: float, largest: float,
+          **options: Any) -> None:
+    """Of the time from begin to end, in units that suit the end and the largest force or strain."""
+    (time, per_second), (force, per_newton) = unit("time", end), unit(quantity, largest)
     inside = (times >= begin) & (times <= end)
     axes.plot(*thinned(per_second * times[inside], per_newton * forces[inside], _MOST_DRAWN), **options)
-    axes.set(xlim=(per_second * begin, per_second * end), xlabel=f"time of the run, {time}", ylabel=f"force, {force}")
+    axes.set(xlim=(per_second * begin, per_second * end), xlabel=f"time of the run, {time}", ylabel=f"{quantity}, {force}")
 
 
 @figure("a", height=3.2)
 def draw_forces(a: Alignment, axes: Any, begin: float | None = None, end: float | None = None, **options: Any) -> None:
     """The measured force and the computed one on the time of the run."""
-    part = (a.begin if begin is None else begin, a.end if end is None else end, max(a.computed.peak, a.measured.peak))
+    part = (a.begin if begin is None else begin, a.end if end is None else end, max(abs(a.computed.peak), abs(a.measured.peak)))
     label = "computed" if a.low_pass is None else "computed, as the transducer shows it"
-    _line(axes, a.measured.times, a.measured.forces, *part, color=COLOURS[1], label="measured", **options)
-    _line(axes, a.computed.times, a.computed.forces, *part, color=COLOURS[0], label=label)
+    _line(axes, a.quantity, a.measured.times, a.measured.forces, *part, color=COLOURS[1], label="measured", **options)
+    _line(axes, a.quantity, a.computed.times, a.computed.forces, *part, color=COLOURS[0], label=label)
     legend_above(axes)
 
 
@@ -62,8 +63,8 @@ def draw_all(a: Alignment, axes: Any) -> None:
     """The measured force and the computed one on the time of the run, their difference (computed less measured), and both
     about the largest force."""
     draw_forces(a, axes[0])
-    _line(axes[1], *a.difference, a.begin, a.end, float(np.abs(a.difference[1]).max()), color=GREY)
-    axes[1].set_ylabel("difference" + axes[1].get_ylabel().removeprefix("force"))
+    _line(axes[1], a.quantity, *a.difference, a.begin, a.end, float(np.abs(a.difference[1]).max()), color=GREY)
+    axes[1].set_ylabel("difference" + axes[1].get_ylabel().removeprefix(a.quantity))
     half, peak = 0.03 * (a.end - a.begin), a.measured.peak_time
     draw_forces(a, axes[2], max(a.begin, peak - half), min(a.end, peak + half), marker=".", markersize=3)
     axes[2].get_legend().remove()

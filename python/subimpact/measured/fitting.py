@@ -1,9 +1,9 @@
-"""Keys of a case fitted to a measured force."""
+"""Keys of a case fitted to a measured force or strain."""
 
 from __future__ import annotations
 
+import functools
 import math
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,7 @@ from .._errors import CaseError, ResultsError
 from ..case import Case, as_case, keys as all_keys
 from ..result import Result
 from ..running import run
-from .aligning import Alignment, align, covariance_of, curve_of
+from .aligning import Alignment, align, column_of, curve_of, solve
 from .reading import Signal
 from .words import rounded
 
@@ -30,7 +30,7 @@ _STEP = 1e-3  # of a key, for derivatives; the tolerance of a run is far below
 
 @dataclass(frozen=True, repr=False)
 class Fit:
-    """Keys of a case with which a run gives the measured force."""
+    """Keys of a case with which a run gives what was measured."""
 
     keys: tuple[str, ...]
     values: Numbers  #: in SI units, as `case` has them
@@ -53,16 +53,6 @@ class Fit:
     def plot(self, axes: Any = None) -> Any:
         """Draws both forces over the time of the run; returns the axes of Matplotlib."""
         return self.alignment.plot(axes)
-
-
-def _range(key: str) -> tuple[float, float]:
-    """The values that a key allows."""
-    words = all_keys()[key].allowed
-    if ends := re.search(r"from (\S+) .*?to ([0-9.e+-]*\d)", words.replace(",", " ")):
-        return float(ends[1]), float(ends[2])
-    least = 0.0 if "above 0" in words or "0 or above" in words else -math.inf
-    most = re.search(r"up to ([0-9.e+-]*\d)", words)
-    return least, float(most[1]) if most else math.inf
 
 
 def _start(case: Case, keys: Sequence[str]) -> dict[str, float]:
@@ -93,7 +83,7 @@ class _Runs:
         self.case = case.changed({**case.chosen(), **changes})  # one model for all runs
         self.start = start
         self.n = 0
-        self._kept: dict[tuple[float, ...], Result] = {}
+        self._result = functools.lru_cache(maxsize=9)(self._run)
 
     def values(self, x: Numbers) -> dict[str, float]:
         """At _BEGIN they are those of the start. Keys that begin at 0 change by a unit, others by a factor."""
@@ -107,29 +97,30 @@ class _Runs:
             change = _STEP * (np.arange(len(self.start)) == j)
             self.units[key] = 1.0 if self.start[key] else 1e-6
             while (not self.start[key] and self.units[key] < min(limits[1][j], 1e12)
-                   and np.abs(force(_BEGIN + change) - before).max() < 1e-3 * before.max()):
+                   and np.abs(force(_BEGIN + change) - before).max() < 1e-3 * np.abs(before).max()):
                 self.units[key] *= 10.0
 
     def __call__(self, x: Numbers) -> Result:
-        values = self.values(x)
-        at = tuple(values.values())
-        if at not in self._kept:
-            result = run(self.case.changed(values), error_bars="off", model_errors=False)
-            self.n += 1
-            if result.interrupted:
-                raise KeyboardInterrupt
-            if result.outcome not in ("completed", "inaccurate"):
-                where = ", ".join(f"{key} = {value:.6g}" for key, value in values.items())
-                raise ResultsError(f"the run with {where} ended {result.outcome}: {result.message}; begin elsewhere, or give bounds")
-            self._kept = {**dict(list(self._kept.items())[-8:]), at: result}
-        return self._kept[at]
+        return self._result(tuple(self.values(x).items()))
+
+    def _run(self, values: tuple[tuple[str, float], ...]) -> Result:
+        result = run(self.case.changed(dict(values)), error_bars="off", model_errors=False)
+        self.n += 1
+        if result.interrupted:
+            raise KeyboardInterrupt
+        if result.outcome not in ("completed", "inaccurate"):
+            where = ", ".join(f"{key} = {value:.6g}" for key, value in values)
+            raise ResultsError(f"the run with {where} ended {result.outcome}: {result.message}; begin elsewhere, or give bounds")
+        return result
 
 
 def _limits(runs: _Runs, bounds: Mapping[str, tuple[float, float]] | None) -> tuple[Numbers, Numbers]:
     """Of what the fit changes: the range of each key, or what is given."""
     lower, upper = [], []
     for key, value in runs.start.items():
-        low, high = (bounds or {}).get(key) or _range(key)
+        known = all_keys()[key]
+        low, high = (bounds or {}).get(key) or (-math.inf if known.least is None else known.least,
+                                                math.inf if known.most is None else known.most)
         if not low <= value <= high:
             raise CaseError(f"{key} is {value:g}, and its bounds are {low:g} and {high:g}; begin between them", key)
         if value:
@@ -148,63 +139,50 @@ def fit(
     shift: float | None = None,
     low_pass: float | None = None,
     gain: float = 1.0,
+    gauge: int = 1,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     progress: Callable[[int, float], object] | None = None,
 ) -> Fit:
-    """Finds the values of keys with which the force of the run differs least from the measured one,
+    """Finds the values of keys with which the force, or strain, of the run differs least from the measured one,
     by least squares. It begins with the values of the case, which must be likely ones.
 
     keys       numbers of the case: "striker.nose_radius", "contact.damping"
     shift      s, by which the measured time is later; None: it is found with the keys
-    low_pass   Hz, cut-off of the transducer; `gain`, measured over true force: both as `align` takes them
+    low_pass   Hz, cut-off of the transducer; `gain`, measured over true force; `gauge`: as `align` takes them
     bounds     least and largest values by key; the others are what the key allows
     progress   called with the number of runs and the root of the mean square of the difference, N
 
     Every run is that of the case without error bars. Raises CaseError for keys that are no numbers or
     have no value, and ResultsError as `align` does.
     """
-    from scipy.optimize import least_squares
-
     start = _start(as_case(case), [keys] if isinstance(keys, str) else list(keys))
     runs = _Runs(case, signal, start)
     n = len(start)
-    first = align(runs(np.full(n, _BEGIN)), signal, shift, gain, low_pass)
-    interval, step, apart = signal.interval, 0.5 * signal.interval, 20 * signal.interval
+    first = align(runs(np.full(n, _BEGIN)), signal, shift, gain, low_pass, gauge)
+    apart = 20 * signal.interval  # a unit of the shift
     margin = 0.1 * (first.end - first.begin)
-    inside = (signal.times - first.shift > first.begin - margin) & (signal.times - first.shift < first.end - 16 * interval)
+    later = signal.times - first.shift
+    inside = (later > first.begin - margin) & (later < first.end - 16 * signal.interval)
     times, forces = signal.times[inside], signal.forces[inside] / gain
 
-    def force(z: Numbers, later: float = 0.0) -> Numbers:
+    def force(z: Numbers) -> Numbers:
         moved = first.shift + ((z[n] - _BEGIN) * apart if shift is None else 0.0)
-        return curve_of(runs(z[:n]), low_pass).at(times - moved + later)
-
-    def residuals(z: Numbers) -> Numbers:
-        difference = force(z) - forces
+        computed = curve_of(runs(z[:n]), low_pass, column_of(signal, gauge)).at(times - moved)
         if progress is not None:
-            progress(runs.n, float(np.sqrt(np.mean(difference**2))))
-        return difference
-
-    def jacobian(z: Numbers) -> Numbers:
-        columns = []
-        for j in range(n):
-            down, up = z.copy(), z.copy()
-            down[j], up[j] = max(z[j] - _STEP, lower[j]), min(z[j] + _STEP, upper[j])
-            columns.append((force(up) - force(down)) / (up[j] - down[j]))
-        if shift is None:
-            columns.append((force(z, -step) - force(z, step)) / (2 * step) * apart)
-        return np.stack(columns, axis=1)
+            progress(runs.n, float(np.sqrt(np.mean((computed - forces) ** 2))))
+        return computed
 
     free = np.full(n + (shift is None), _BEGIN)
     runs.choose_units(lambda x: force(np.r_[x, free[n:]]), _limits(runs, bounds))
-    lower, upper = _limits(runs, bounds)
-    ends = (np.r_[lower, [-np.inf] * (len(free) - n)], np.r_[upper, [np.inf] * (len(free) - n)])
-    found = least_squares(residuals, np.clip(free, *ends), jac=jacobian, bounds=ends, method="dogbox",
-                          xtol=1e-6, ftol=1e-7)
-    covariance = covariance_of(found.jac, found.fun)[:n, :n]
-    values = runs.values(found.x[:n])
+    ends = np.pad(_limits(runs, bounds), ((0, 0), (0, len(free) - n)), constant_values=np.nan)
+    ends[:, n:] = [[-np.inf], [np.inf]]
+    steps = np.r_[np.full(n, _STEP), np.full(len(free) - n, 0.5 * signal.interval / apart)]
+    found, covariance = solve(force, forces, free, steps, ends, method="dogbox", xtol=1e-6, ftol=1e-7)
+    covariance = covariance[:n, :n]
+    values = runs.values(found[:n])
     deviations = np.sqrt(np.diag(covariance))
     per_x = np.array([abs(value) if start[key] else runs.units[key] for key, value in values.items()])
     with np.errstate(invalid="ignore"):
         related = covariance / np.outer(deviations, deviations)
     return Fit(tuple(start), np.array(list(values.values())), deviations * per_x, related,
-               align(runs(found.x[:n]), signal, shift, gain, low_pass), case.changed(values), runs.n)
+               align(runs(found[:n]), signal, shift, gain, low_pass, gauge), case.changed(values), runs.n)

@@ -1,4 +1,4 @@
-"""Measured forces, from the files of instruments and spreadsheets."""
+"""Measured forces and strains, from the files of instruments and spreadsheets."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Column = Union[int, str]
 _MOST_BYTES = 4_000_000_000
 _TIME = re.compile(r"t\b|time|zeit|x_?value", re.IGNORECASE)
-_FORCE = re.compile(r"f\b|force|kraft|load|last\b", re.IGNORECASE)
+_FORCE = re.compile(r"f\b|force|kraft|load|last\b|strain|dehnung", re.IGNORECASE)
 _INCREMENTS = ("increment", "deltax", "deltat", "dt", "tinc", "xinc", "sampleinterval", "samplinginterval", "timeinterval",
                "sampleperiod", "samplingperiod", "timestep", "hresolution", "interval", "abtastintervall")
 _RATES = ("samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "fs", "abtastrate", "abtastfrequenz")
@@ -31,12 +31,13 @@ _MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237}
 
 @dataclass(frozen=True, repr=False)
 class Signal:
-    """A measured contact force; positive where it pushes."""
+    """A measured contact force, positive where it pushes, or the strain of a gauge, positive in tension."""
 
     times: npt.NDArray[np.float64]  #: s, increasing
-    forces: npt.NDArray[np.float64]  #: N
+    forces: npt.NDArray[np.float64]  #: N; of a gauge the strains, m/m
     source: str = "signal"
     assumed: tuple[str, ...] = ()  #: how the file was read, in words
+    quantity: str = "force"  #: or "strain"
 
     @property
     def interval(self) -> float:
@@ -45,7 +46,8 @@ class Signal:
 
     def __repr__(self) -> str:
         return (f"<Signal of {self.source}: {len(self.times)} samples {1e6 * self.interval:.6g} us apart, "
-                f"{self.forces.min():.6g} to {self.forces.max():.6g} N; {'; '.join(self.assumed)}>")
+                f"{self.forces.min():.6g} to {self.forces.max():.6g} {'N' if self.quantity == 'force' else 'm/m'}; "
+                f"{'; '.join(self.assumed)}>")
 
 
 def _listed(value: Column | Sequence[Column] | None) -> list[Column]:
@@ -77,6 +79,7 @@ class _Reading:
             self.time = self._unnamed_time()
         self.time_unit = self._unit(self.time, units[0] if len(units) > 1 else None, "time")
         self.force_unit = self._unit(self.force, units[-1] if units else None, "force")
+        self.quantity = "strain" if self.force_unit and self.force_unit.kind == "strain" else "force"
 
     def _given_unit(self, text: Column) -> Unit:
         if (unit := unit_of(str(text))) is None:
@@ -111,7 +114,7 @@ class _Reading:
 
     def _find_force(self, stated: dict[int, Unit | None], units: list[Column]) -> int:
         table = self.table
-        for kinds in ({"force"}, {"acceleration", "voltage", "charge"}):
+        for kinds in ({"force"}, {"strain", "acceleration", "voltage", "charge"}):
             if (found := self._choose(kinds, stated, _FORCE, "forces")) is not None:
                 return found
         others = [j for j in table.columns if j != self.time and stated[j] is None]
@@ -198,10 +201,10 @@ class _Reading:
         return parts[0] * unit.factor if unit and unit.kind == "time" else None
 
     def newtons(self, sensitivity: str | None, mass: float | str | None) -> tuple[float, str]:
-        """What the column of the force is multiplied by, and why."""
+        """What the column of the force is multiplied by, and why; a strain by its unit."""
         table, unit, where = self.table, self.force_unit, self._label(self.force)
         assert unit is not None
-        factor, kind, words = unit.factor, unit.kind, f"force: {where}, {unit.symbol}"
+        factor, kind, words = unit.factor, unit.kind, f"{self.quantity}: {where}, {unit.symbol}"
         if kind in ("voltage", "charge"):
             text = sensitivity or self._metadata(("sensitivity", "empfindlichkeit"), self.force)
             known: Sensitivity | None = sensitivity_of(str(text)) if text else None
@@ -218,7 +221,7 @@ class _Reading:
                 table.fail(table.heading or None, f"{where} is an acceleration; give mass=\"0.2 kg\", that of the body which it is "
                            "measured on")
             factor, kind, words = factor * kilograms, "force", words + f" times {kilograms:g} kg"
-        if kind != "force":
+        if kind != self.quantity:
             table.fail(table.heading or None, f"{where} is in {unit.symbol}, no unit of force; give columns=T,F, the numbers of "
                        "that of the time and that of the force, or units=us,N")
         return factor, words
@@ -239,13 +242,13 @@ def read(
     separator: str | None = None,
     decimal: str | None = None,
 ) -> Signal:
-    """The contact force that an instrument or a spreadsheet has written as a table of text.
+    """The contact force, or the strain of a gauge, that an instrument or a spreadsheet has written as a table of text.
 
     A file that states what it holds needs no option. Raises ResultsError for any other: the message
     names the place and the option that helps.
 
     columns      of time and force, by number from 1 or by name: (1, 3), "Time,Force"; one: the force
-    units        of both: ("us", "kN") or "us,kN"; one: of the force. Accelerations and volts are allowed
+    units        of both: ("us", "kN") or "us,kN"; one: of the force. Accelerations, volts and um/m are allowed
     scale        the force is multiplied by this
     sign         -1 where the file has compression negative, 1 where it is as it should be
     sensitivity  of a transducer in volts or coulombs: "2.27 mV/N", "10 mV/g"
@@ -278,11 +281,11 @@ def read(
     forces = numbers[:, -1] * factor * scale
     if sign is None and "times" in words and np.nanmin(forces) < -np.nanmax(forces):
         forces, words = -forces, words + ", which slows the striker down: sign changed"
-    return _signal(table, wanted, times, forces, [how, words], sign)
+    return _signal(table, wanted, times, forces, [how, words], sign, reading.quantity)
 
 
 def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], forces: npt.NDArray[np.float64],
-            assumed: list[str], sign: int | None) -> Signal:
+            assumed: list[str], sign: int | None, quantity: str) -> Signal:
     """What was read without the gaps, of the right sign."""
     kept = np.flatnonzero(np.isfinite(times) & np.isfinite(forces))
     if n_left_out := len(times) - len(kept):
@@ -300,7 +303,7 @@ def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], for
         assumed.append("samples of one time averaged")
     if len(times) < 3:
         table.fail(table.first + 1, f"has {len(times)} rows of numbers, and 3 are the least; allowed: the record of a strike")
-    if sign is None and -forces.min() > max(forces.max(), 0.0):
+    if quantity == "force" and sign is None and -forces.min() > max(forces.max(), 0.0):
         table.fail(table.heading or None, f"the force lies between {forces.min():.4g} and {forces.max():.4g} N, and contact pushes: "
                    "give sign=-1 if the file has compression negative, sign=1 if not")
-    return Signal(times, forces * (sign or 1), table.file, (*assumed, *(["sign changed"] if sign == -1 else [])))
+    return Signal(times, forces * (sign or 1), table.file, (*assumed, *(["sign changed"] if sign == -1 else [])), quantity)

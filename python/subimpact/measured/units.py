@@ -1,4 +1,4 @@
-"""Units of time, force, voltage, charge and acceleration, as instruments and spreadsheets write them."""
+"""Units of time, force, strain, voltage, charge and acceleration, as instruments and spreadsheets write them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _STANDARD_GRAVITY = 9.80665  # m/s^2
 class Unit(NamedTuple):
     """Values times `factor` are in SI."""
 
-    kind: str  #: "time", "force", "voltage", "charge", "acceleration" or "frequency"
+    kind: str  #: "time", "force", "strain", "voltage", "charge", "acceleration" or "frequency"
     factor: float
     symbol: str
 
@@ -47,6 +47,11 @@ def _table() -> dict[str, Unit]:
         table[symbol] = Unit("acceleration", _STANDARD_GRAVITY, "g")
     for symbol in ("m/s2", "m/s/s", "ms-2", "m/sec2"):
         table[symbol] = Unit("acceleration", 1.0, "m/s^2")
+    for symbol in ("strain", "m/m", "ε"):
+        table[symbol] = Unit("strain", 1.0, "m/m")
+    for symbol in ("um/m", "microstrain", "ustrain", "uε"):
+        table[symbol] = Unit("strain", 1e-6, "um/m")
+    table["mm/m"] = Unit("strain", 1e-3, "mm/m")
     table["mm/s2"] = Unit("acceleration", 1e-3, "mm/s^2")
     return table
 

@@ -37,12 +37,14 @@ def answers_of(a: Alignment) -> list[dict[str, str]]:
                         f"{1e6 * a.interval:.4g} us apart"}]
     if a.low_pass is not None:
         answers.append({"name": "low-pass", "value": rounded(1e-3 * a.low_pass, times(1e-3, a.low_pass_error), "kHz"),
-                        "note": f"{known(a.low_pass_error)}; Butterworth, fourth order, on the computed force"})
+                        "note": f"{known(a.low_pass_error)}; Butterworth, fourth order, on what is computed"})
     if a.gain != 1.0:
         answers.append({"name": "gain", "value": rounded(a.gain, a.gain_error, "").strip(),
-                        "note": f"{known(a.gain_error)}; by which the measured force is divided"})
+                        "note": f"{known(a.gain_error)}; by which the measurement is divided"})
     c, m = a.computed, a.measured
     cover = f"from {1e6 * a.begin:.6g} to {1e6 * a.end:.6g} us of the run, which both cover"
+    if a.quantity == "strain":
+        return [*answers, _difference("largest strain", 1e6 * c.peak, 1e6 * m.peak, "um/m", cover)]
     return [*answers,
             _difference("largest force", c.peak, m.peak, "N",
                         f"at {1e6 * c.peak_time:.1f} and {1e6 * m.peak_time:.1f} us of the run"),

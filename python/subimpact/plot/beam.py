@@ -8,10 +8,11 @@ import matplotlib
 import numpy as np
 
 from ..result import Result
-from .style import COLOURS, GREY, WIDTH, Absent, figure, legend_above, unit
+from .style import COLOURS, GREY, figure, grid_of, legend_above, present, unit
 
 _MOST_SECTIONS = 24
 _N_SHAPES = 7
+_NO_SHAPES = "the run kept no shapes; run it again with output.shapes above 0, or without it"
 
 
 def _bending_stiffness(table: Any) -> float:
@@ -22,23 +23,17 @@ def _bending_stiffness(table: Any) -> float:
 
 
 def _sections(result: Result) -> Any:
-    if not len(result.sections):
-        raise Absent("the run kept the bending of no section; run it again with --set output.sections=0.5 "
-                     "(or more positions, as fractions of the length)")
-    return result.sections
+    return present(result.sections, "the run kept the bending of no section; run it again with --set output.sections=0.5 "
+                   "(or more positions, as fractions of the length)")
 
 
 def _panels(result: Result) -> tuple[Any, dict[str, Any]]:
+    _sections(result)
     n = min(len(result["output.sections"]), _MOST_SECTIONS)
-    columns = 3 if n > 4 else min(n, 2)
-    rows = -(-n // columns)
-    cells = np.full(rows * columns, -1)
-    cells[:n] = np.arange(n)
-    return (cells.reshape(rows, columns).tolist(),
-            {"empty_sentinel": -1, "figsize": (WIDTH, max(3.8, 2.6 * rows))})
+    return grid_of(n, 3 if n > 4 else min(n, 2), 2.6, 3.8)
 
 
-@figure(lambda result: _panels(result) if len(_sections(result)) else ([[0]], {}))
+@figure(_panels)
 def bending(result: Result, axes: Any) -> None:
     """Bending moment against curvature of the sections kept over the whole run, in units of first yield
     where the beam can yield. Dots: end of the run."""
@@ -64,9 +59,7 @@ def bending(result: Result, axes: Any) -> None:
 def shapes(result: Result, axes: Any) -> None:
     """Displacement and bending moment along the whole beam at some instants of the run, from dark to
     light."""
-    table = result.shapes
-    if not len(table):
-        raise Absent("the run kept no shapes; run it again with output.shapes above 0, or without it")
+    table = present(result.shapes, _NO_SHAPES)
     rows = table.reshape(-1, result.summary["used"]["n_shape_points"])
     times = rows["time_s"][:, 0]
     wanted = times[-1] * np.arange(1, _N_SHAPES + 1) / _N_SHAPES
@@ -92,9 +85,7 @@ def envelope(result: Result, axes: Any) -> None:
     strain of the outer fibre (cut off at six times first yield) and displacement; of a beam that has
     yielded, in its place the permanent set, its displacement at rest against its supports, of a free one
     against its chord. Shaded: plastic zones."""
-    table = result.envelope
-    if not len(table):
-        raise Absent("the run kept no shapes; run it again with output.shapes above 0, or without it")
+    table = present(result.envelope, _NO_SHAPES)
     x, zones = table["position_m"], result.summary["rest"]["plastic_zones"]
     limit = result.summary["used"]["yield_curvature_per_m"]
     strain = 1e3 * (result["beam.yield_stress"] or np.nan) / result["beam.youngs_modulus"] if zones else np.nan
@@ -131,9 +122,7 @@ def strikes(result: Result, axes: Any) -> None:
     """Strike after strike, at the end of each: restitution; dent and permanent set of all strikes so far;
     energy that the strike has dissipated in bending and in the contact. Bars: errors, where they are
     known, cut off where they are larger than the values."""
-    table = result.strikes
-    if not len(table):
-        raise Absent("the beam was struck once; run it again with repeat.strikes above 1")
+    table = present(result.strikes, "the beam was struck once; run it again with repeat.strikes above 1")
     top, middle, bottom = axes
     n = table["strike"]
     if np.isfinite(table["restitution"]).any():

@@ -9,6 +9,7 @@ import json
 import os
 import re
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -105,6 +106,8 @@ def figures_of(directory: Path) -> dict[str, Figure]:
         return figures
     result = read_results(directory)
     figures = {name: _figure(draw, result) for name, draw in _OF_RUN.items()}
+    if result["output.gauges"]:
+        figures["gauges"] = _figure(run.gauges, result)
     if len(result.strikes):
         figures["strikes"] = _figure(beam.strikes, result)
     return figures
@@ -147,21 +150,22 @@ def _compact(svg: str) -> str:
                   + marks[2].replace(f' style="{marks[3]}"', "") + "</g>", svg)
 
 
+def _read_member(file: Path, name: str) -> Any:
+    """Of an object in a file of JSON; None if it cannot be read."""
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))[name]
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
 def identity_of(directory: Path) -> str:
     """Of the results in a directory; empty if there is none."""
-    try:
-        return str(json.loads((directory / "manifest.json").read_text(encoding="utf-8"))["identity"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return ""
+    return str(_read_member(directory / "manifest.json", "identity") or "")
 
 
 def _earlier(directory: Path) -> dict[str, str]:
     """The captions of figures that were drawn before."""
-    try:
-        drawn = json.loads((directory / LIST).read_text(encoding="utf-8"))["figures"]
-        return {figure["name"]: figure["caption"] for figure in drawn}
-    except (OSError, ValueError, KeyError, TypeError):
-        return {}
+    return {figure["name"]: figure["caption"] for figure in _read_member(directory / LIST, "figures") or []}
 
 
 def draw_directory(directory: str | os.PathLike[str], out: str | os.PathLike[str] | None = None,
@@ -176,8 +180,7 @@ def draw_directory(directory: str | os.PathLike[str], out: str | os.PathLike[str
         raise ValueError(f"{', '.join(unknown)}: no figure of {source}; allowed: {', '.join(figures)}")
     target = Path(path_text(out if out is not None else source / "figures", OutputError))
     identity = identity_of(source)
-    output = _core.OutputDirectory(str(target), "figures", 0.0, identity)
-    try:
+    with closing(_core.OutputDirectory(str(target), "figures", 0.0, identity)) as output:
         known = _earlier(target) if identity and identity == identity_of(target) else {}
         captions: dict[str, str] = {}
         left_out: list[str] = []
@@ -199,5 +202,3 @@ def draw_directory(directory: str | os.PathLike[str], out: str | os.PathLike[str
         (Path(output.staging) / LIST).write_text(text + "\n", encoding="utf-8")
         output.commit()
         return Drawn(str(target), captions, left_out, failed, output.notes)
-    finally:
-        output.close()

@@ -7,16 +7,14 @@ from typing import Any
 import numpy as np
 
 from ..result import Result
-from .style import COLOURS, CONTACT, DOUBT, Absent, bands, figure, legend_above, unit
+from .style import COLOURS, CONTACT, DOUBT, bands, figure, legend_above, present, unit
 
 _MOST_INSETS = 3
 _MOST_ZONES = 4
 
 
 def _history(result: Result) -> Any:
-    if not len(result.history):
-        raise Absent("the run kept no history; run it again with output.interval above 0")
-    return result.history
+    return present(result.history, "the run kept no history; run it again with output.interval above 0")
 
 
 def _ends(result: Result) -> Any:
@@ -48,6 +46,21 @@ def force(result: Result, axes: Any) -> None:
     axes.set_ylim(bottom=0)
     if len(result.sub_impacts):
         legend_above(axes)
+
+
+@figure([[0]], height=2.8)
+def gauges(result: Result, axes: Any) -> None:
+    """Strain of every gauge over time, positive in tension. Shaded: sub-impacts, hatched where they are not certain."""
+    history = _history(result)
+    places = present(result["output.gauges"], "the run has no gauge; run it again with output.gauges, such as "
+                     "[{ position = 0.3, face = \"back\" }]")
+    time_unit, t = unit("time", result.time)
+    _shade(axes, result, t)
+    lines = [axes.plot(t * history["time_s"], 1e6 * history[f"gauge_{k}_strain"], linewidth=0.8,
+                       label=f"{place['face']}, {place['position'] * result['beam.length']:.4g} m")[0]
+             for k, place in enumerate(places, 1)]
+    axes.set(xlabel=f"time, {time_unit}", ylabel="strain, µm/m", xlim=(0, t * result.time))
+    legend_above(axes, lines)
 
 
 @figure([[0], [1]], height=5.2, sharex=True)

@@ -58,6 +58,22 @@ class Absent(LookupError):
     """A figure that cannot be drawn of these results: the reason, and what to do."""
 
 
+def present(table: Any, otherwise: str) -> Any:
+    """The table, if it has rows. Raises Absent with what to do otherwise."""
+    if not len(table):
+        raise Absent(otherwise)
+    return table
+
+
+def grid_of(n: int, columns: int, height: float, least: float = 0.0) -> tuple[Any, dict[str, Any]]:
+    """So many panels in rows, each so high (inches), for `figure`."""
+    rows = -(-n // columns)
+    cells = np.full(rows * columns, -1)
+    cells[:n] = np.arange(n)
+    return (cells.reshape(rows, columns).tolist(),
+            {"empty_sentinel": -1, "figsize": (WIDTH, max(least, height * rows))})
+
+
 def style() -> AbstractContextManager[None]:
     """Sizes, fonts and colours for publication, whatever the user's settings of Matplotlib are."""
     context: AbstractContextManager[None] = matplotlib_style.context(["default", STYLE])
@@ -116,6 +132,7 @@ _UNITS: Mapping[str, tuple[tuple[float, str, float], ...]] = {
     "force": ((1e3, "kN", 1e-3), (0.1, "N", 1.0), (0.0, "mN", 1e3)),
     "length": ((1e-4, "mm", 1e3), (1e-7, "µm", 1e6), (0.0, "nm", 1e9)),
     "energy": ((0.1, "J", 1.0), (1e-4, "mJ", 1e3), (0.0, "µJ", 1e6)),
+    "strain": ((0.0, "µm/m", 1e6),),
     "time": ((1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
 }
 

@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 
 from ..case import keys
-from .style import COLOURS, WIDTH, Absent, figure
+from .style import COLOURS, Absent, figure, grid_of, present
 
 Table = Mapping[str, Any]
 
@@ -136,18 +136,11 @@ def _chief(runs: Table) -> Sequence[str]:
     """The columns of CHIEF that differ from run to run."""
     shown = [name for name in CHIEF if name in runs and np.asarray(runs[name]).dtype.kind in "if"
              and np.isfinite(runs[name]).any() and np.nanmax(runs[name]) > np.nanmin(runs[name])]
-    if not shown:
-        raise Absent("no number differs from run to run")
-    return shown
+    chief: Sequence[str] = present(shown, "no number differs from run to run")
+    return chief
 
 
-def _two_columns(runs: Table) -> tuple[Any, dict[str, Any]]:
-    n = len(_chief(runs))
-    cells = [*range(n), *[-1] * (n % 2)] if n > 1 else [0, 0]
-    return np.reshape(cells, (-1, 2)).tolist(), {"empty_sentinel": -1, "figsize": (WIDTH, 2.4 * (-(-n // 2)))}
-
-
-@figure(_two_columns)
+@figure(lambda runs: grid_of(len(_chief(runs)), min(len(_chief(runs)), 2), 2.4))
 def histograms(runs: Table, axes: Any) -> None:
     """How the chief numbers are distributed over the runs. Line: the mean; shaded: from the 5 %
     to the 95 % quantile; dotted: the median."""

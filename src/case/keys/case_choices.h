@@ -65,6 +65,12 @@ inline constexpr Named<BeamStart> choices<BeamStart>[] = {
 };
 
 template <>
+inline constexpr Named<Face> choices<Face>[] = {
+    {Face::front, "front", "the side that is struck"},
+    {Face::back, "back", "the side behind"},
+};
+
+template <>
 inline constexpr Named<CellSpacing> choices<CellSpacing>[] = {
     {CellSpacing::cells, "cells",
      "length/segments: the cells fill the beam, without the rotary inertia of the outer half cells "

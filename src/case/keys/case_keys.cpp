@@ -68,37 +68,40 @@ struct Member<std::array<T, 2>> {
   }
 };
 
-template <>
-struct Member<std::vector<Spring>> {
+// Things at points, each as an entry of a list and back.
+using Entry = PlacedValues::Entry;
+Entry entry_of(const Spring& x) { return {x.position, {{0.0, x.stiffness}}}; }
+Entry entry_of(const PointForce& x) { return {x.position, x.table}; }
+Entry entry_of(const Gauge& x) { return {x.position, {}, name_of(x.face)}; }
+void read(const Entry& entry, Spring& x) { x = {entry.position, entry.table.front().second}; }
+void read(const Entry& entry, PointForce& x) { x = {entry.position, entry.table}; }
+void read(const Entry& entry, Gauge& x) { x = {entry.position, value_of<Face>(entry.word)}; }
+
+const char* quantity_of(const Spring&) { return "stiffness"; }
+const char* quantity_of(const PointForce&) { return "force"; }
+const char* quantity_of(const Gauge&) { return "face"; }
+
+template <class T>
+struct PlacedMember {
   static constexpr KeyType type = KeyType::placed;
-  static KeyValue to_value(const std::vector<Spring>& x) {
-    PlacedValues value{"stiffness", {}};
-    for (const Spring& one : x) value.entries.push_back({one.position, {{0.0, one.stiffness}}});
+  static KeyValue to_value(const std::vector<T>& x) {
+    PlacedValues value{quantity_of(T{}), {}};
+    for (const T& one : x) value.entries.push_back(entry_of(one));
     return value;
   }
-  static std::vector<Spring> from_value(const KeyValue& v) {
-    std::vector<Spring> springs;
-    for (const auto& [position, table] : std::get<PlacedValues>(v).entries) {
-      springs.push_back({position, table.front().second});
-    }
-    return springs;
+  static std::vector<T> from_value(const KeyValue& v) {
+    std::vector<T> things;
+    for (const Entry& entry : std::get<PlacedValues>(v).entries) read(entry, things.emplace_back());
+    return things;
   }
 };
 template <>
-struct Member<std::vector<PointForce>> {
-  static constexpr KeyType type = KeyType::placed;
-  static KeyValue to_value(const std::vector<PointForce>& x) {
-    PlacedValues value{"force", {}};
-    for (const PointForce& one : x) value.entries.push_back({one.position, one.table});
-    return value;
-  }
-  static std::vector<PointForce> from_value(const KeyValue& v) {
-    std::vector<PointForce> forces;
-    for (const auto& [position, table] : std::get<PlacedValues>(v).entries) {
-      forces.push_back({position, table});
-    }
-    return forces;
-  }
+struct Member<std::vector<Spring>> : PlacedMember<Spring> {};
+template <>
+struct Member<std::vector<PointForce>> : PlacedMember<PointForce> {};
+template <>
+struct Member<std::vector<Gauge>> : PlacedMember<Gauge> {
+  using Choices = Face;
 };
 
 template <class T>
@@ -400,6 +403,7 @@ std::vector<CaseKey> make_case_keys() {
     row("output.opening", "m", not_negative, "contacts between which striker and beam part by less are joined to one sub-impact; 0: none", as_in_case, AT(output.opening)),
     row("output.sections", "", fraction, "positions, as fractions of the length, of sections whose curvature and moment are kept", as_in_case, AT(output.sections)),
     row("output.points", "", fraction, "positions, as fractions of the length, of points whose displacement and velocity are kept", as_in_case, AT(output.points)),
+    row("output.gauges", "", any_value, "strain gauges along the axis, on the struck face or on the back, whose strains are columns of history.csv", "[]", AT(output.gauges)),
     row("output.shapes", "s", not_negative, "time between shapes, the fields along the whole beam; 0: none, and no envelope", "time.end/400 in whole intervals; without history rows none", AT(output.shapes)),
     row("output.shape_points", "", between("from 5 to 200000", 5, 200000), "most points of a shape, along the whole beam", as_in_case, AT(output.shape_points)),
 

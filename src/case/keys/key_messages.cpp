@@ -21,8 +21,8 @@ std::string quoted_list(std::vector<std::string> names) {
 // A value of another type than the key's is shown together with its type.
 std::string typed(const KeyValue& value) {
   static constexpr const char* kinds[] = {
-      "a boolean", "a whole number",    "a floating-point number",   "a text",
-      "a list",    "a list of numbers", "a list of loads or springs"};
+      "a boolean", "a whole number",    "a floating-point number",           "a text",
+      "a list",    "a list of numbers", "a list of loads, springs or gauges"};
   return fmt::format("{} ({})", kinds[value.index()], to_text(value));
 }
 
@@ -72,11 +72,15 @@ std::optional<std::string> pair_problem(const CaseKey& key, const std::vector<st
   return std::nullopt;
 }
 
-// The refusal of the first number in a list of loads or springs that is not allowed.
+// The refusal of the first entry in a list of loads, springs or gauges that is not allowed.
 std::optional<std::string> placed_problem(const CaseKey& key, const PlacedValues& value) {
   const auto refuse = [&](const std::string& what) { return refusal(key, "a list with " + what); };
-  for (const auto& [position, table] : value.entries) {
-    if (!(position >= 0.0 && position <= 1.0)) return refuse(fmt::format("position {}", position));
+  for (const auto& [position, table, word, in_metres] : value.entries) {
+    if (!(position >= 0.0 && (in_metres || position <= 1.0))) {
+      return refuse(fmt::format("position {}", position));
+    }
+    const bool is_known = !table.empty() || is_choice(key, word);
+    if (!is_known) return refuse(value.quantity + ' ' + in_quotes(word));
     for (std::size_t i = 0; i < table.size(); ++i) {
       const auto [time, number] = table[i];
       if (!key.limits.hold(number)) return refuse(fmt::format("{} {}", value.quantity, number));
@@ -138,6 +142,10 @@ std::vector<std::string> CaseKey::choice_names() const {
   return names;
 }
 
+const char* CaseKey::quantity() const {
+  return !choices.empty() ? "face" : leaf() == "forces" ? "force" : "stiffness";
+}
+
 std::string to_text(const KeyValue& value) {
   struct Writer {
     std::string operator()(bool x) const { return x ? "true" : "false"; }
@@ -152,8 +160,9 @@ std::string to_text(const KeyValue& value) {
     }
     std::string operator()(const PlacedValues& x) const {
       std::vector<std::string> entries;
-      for (const auto& [position, table] : x.entries) {
-        std::string amount = fmt::format("{} = {}", x.quantity, table.front().second);
+      for (const auto& [position, table, word, in_metres] : x.entries) {
+        std::string amount = x.quantity + " = ";
+        amount += table.empty() ? in_quotes(word) : fmt::format("{}", table.front().second);
         if (table.size() > 1) {
           std::vector<std::string> pairs;
           for (const auto& [t, f] : table) pairs.push_back(fmt::format("[{}, {}]", t, f));
@@ -186,14 +195,18 @@ std::string allowed_values(const CaseKey& key) {
       return "a list of two out of " + quoted_list(key.choice_names());
     case KeyType::numbers:
       return "a list of numbers" + (range.empty() ? "" : ", each " + key.range) + unit;
-    case KeyType::placed:
-      if (key.leaf() == "forces") {
-        return "a list of { position = x, force = F } or { position = x, table = [[t, F], ...] }, "
-               "x "
-               "from 0 to 1, F in N, t in s, 0 or above and not descending";
+    case KeyType::placed: {
+      const std::string list = "a list of { position = x, ";
+      const std::string x = R"( }, x from 0 to 1, or a length such as "0.3 m" up to the beam's, )";
+      if (!key.choices.empty()) {
+        return list + "face = f" + x + "f one of " + quoted_list(key.choice_names());
       }
-      return fmt::format("a list of {{ position = x, stiffness = k }}, x from 0 to 1, k {}{}",
-                         key.range, unit);
+      if (key.leaf() == "forces") {
+        return list + "force = F } or { position = x, table = [[t, F], ...]" + x +
+               "F in N, t in s, 0 or above and not descending";
+      }
+      return list + "stiffness = k" + x + "k " + key.range + unit;
+    }
   }
   return {};
 }

@@ -136,6 +136,7 @@ class Reader {
       const auto given = given_.find(key.name);
       if (given == given_.end()) continue;
       places[key.name] = given->second.place;
+      make_fractions(given->second.value, read.scene.beam.length);
       if (const auto problem = problem_with(key, given->second.value)) {
         complain(given->second.place, key.name + " " + *problem);
       } else {
@@ -185,6 +186,15 @@ class Reader {
     } else {
       refused_.push_back(key.name);
       complain(where, key.name + " " + refusal(key, describe_type(node)));
+    }
+  }
+
+  // Lengths in place of fractions of the beam's length.
+  static void make_fractions(KeyValue& value, double length) {
+    auto* placed = std::get_if<PlacedValues>(&value);
+    if (placed == nullptr) return;
+    for (PlacedValues::Entry& entry : placed->entries) {
+      if (std::exchange(entry.in_metres, false)) entry.position /= length;
     }
   }
 

@@ -65,18 +65,22 @@ Json choice_schema(const std::vector<Choice>& choices) {
   return {{"type", "string"}, {"enum", names}, {"x-taplo", {{"docs", {{"enumValues", notes}}}}}};
 }
 
-// A list of objects: a position, and a number or a table of pairs.
+// A list of objects: a position, and a number, a table of pairs or a face.
 Json placed_schema(const CaseKey& key) {
-  const bool forces = key.leaf() == "forces";
-  Json items = {{"type", "object"},
-                {"properties",
-                 {{"position", number_schema("number", {.minimum = 0.0, .maximum = 1.0})},
-                  {forces ? "force" : "stiffness", number_or_unit_schema(key)}}},
-                {"required", Json::array({"position"})},
-                {"minProperties", 2},
-                {"maxProperties", 2},
-                {"additionalProperties", false}};
-  if (forces) {
+  const bool gauges = !key.choices.empty();
+  CaseKey position;
+  position.unit = "m";
+  position.limits = {.minimum = 0.0, .maximum = 1.0};
+  Json items = {
+      {"type", "object"},
+      {"properties",
+       {{"position", number_or_unit_schema(position)},
+        {key.quantity(), gauges ? choice_schema(key.choices) : number_or_unit_schema(key)}}},
+      {"required", Json::array({"position"})},
+      {"minProperties", gauges ? 1 : 2},
+      {"maxProperties", 2},
+      {"additionalProperties", false}};
+  if (key.leaf() == "forces") {
     const Json any = {{"type", Json::array({"number", "string"})}};
     const Json pair = {{"type", "array"}, {"items", any}, {"minItems", 2}, {"maxItems", 2}};
     items["properties"]["table"] = {{"type", "array"}, {"items", pair}, {"minItems", 2}};

@@ -20,12 +20,13 @@ const char* allowed_words(double value, Form form) {
 
 Json json_of(const PlacedValues& placed) {
   Json list = Json::array();
-  for (const auto& [position, table] : placed.entries) {
+  for (const auto& [position, table, word, in_metres] : placed.entries) {
     list.push_back({{"position", position}});
+    if (in_metres) list.back()["position"] = fmt::format("{} m", position);
     if (table.size() > 1) {
       list.back()["table"] = table;
     } else {
-      list.back()[placed.quantity] = table.front().second;
+      list.back()[placed.quantity] = table.empty() ? Json(word) : Json(table.front().second);
     }
   }
   return list;
@@ -37,23 +38,32 @@ std::optional<double> number_in(const Json& json, const std::string& unit) {
   return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
-// A list of things at points, each a position and one other number or, of forces, a table.
+// A list of things at points, each a position and one other number, of forces perhaps a table, or
+// of gauges a face, the back if there is none.
 std::optional<KeyValue> placed_in(const Json& list, const CaseKey& key) {
-  const bool forces = key.leaf() == "forces";
-  PlacedValues values{forces ? "force" : "stiffness", {}};
-  for (const Json& item : list) {
-    if (!item.is_object() || item.size() != 2 || !item.contains("position")) return std::nullopt;
-    const auto position = number_in(item.at("position"), "");
-    const bool is_table = forces && item.contains("table");
-    if (!position || (!is_table && !item.contains(values.quantity))) return std::nullopt;
-    const Json rows = is_table ? item.at("table") : Json{{0.0, item.at(values.quantity)}};
+  PlacedValues values{key.quantity(), {}};
+  for (Json item : list) {
+    if (!item.is_object() || !item.contains("position")) return std::nullopt;
+    auto& entry = values.entries.emplace_back();
+    entry.in_metres = item.at("position").is_string();
+    const auto position = number_in(item.at("position"), entry.in_metres ? "m" : "");
+    if (!key.choices.empty()) item.emplace("face", "back");
+    const bool is_table = key.leaf() == "forces" && item.contains("table");
+    const char* what = is_table ? "table" : key.quantity();
+    if (!position || item.size() != 2 || !item.contains(what)) return std::nullopt;
+    entry.position = *position;
+    if (!key.choices.empty()) {
+      if (!item.at(what).is_string()) return std::nullopt;
+      entry.word = item.at(what).get<std::string>();
+      continue;
+    }
+    const Json rows = is_table ? item.at(what) : Json{{0.0, item.at(what)}};
     if (!rows.is_array() || rows.size() < (is_table ? 2 : 1)) return std::nullopt;
-    auto& table = values.entries.emplace_back(*position).table;
     for (const Json& row : rows) {
       if (!row.is_array() || row.size() != 2) return std::nullopt;
       const auto time = number_in(row[0], "s"), amount = number_in(row[1], key.unit);
       if (!time || !amount) return std::nullopt;
-      table.emplace_back(*time, *amount);
+      entry.table.emplace_back(*time, *amount);
     }
   }
   return values;

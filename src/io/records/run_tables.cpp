@@ -1,5 +1,7 @@
 #include "io/records/run_tables.h"
 
+#include <algorithm>
+
 #include "io/records/run_record.h"
 #include "subimpact/io/results.h"
 
@@ -55,6 +57,25 @@ Columns<EnvelopeRow> envelope_columns() {
                  "the same against the supports: against the clamp of a cantilever, else equal",
                  &EnvelopeRow::set_from_supports});
   return all;
+}
+
+// The strain of a gauge, written or read.
+struct StrainOf {
+  std::size_t gauge;  // from 0
+  const double& operator()(const HistoryRow& row) const { return row.gauge_strains.at(gauge); }
+  double& operator()(HistoryRow& row) const {
+    row.gauge_strains.resize(std::max(row.gauge_strains.size(), gauge + 1));
+    return row.gauge_strains[gauge];
+  }
+};
+
+void add_gauges(const OutputOptions& output, Columns<HistoryRow>& columns) {
+  for (std::size_t i = 0; i < output.gauges.size(); ++i) {
+    columns.push_back({fmt::format("gauge_{}_strain", i + 1),
+                       "with output.gauges: axial strain at the first of them, positive in "
+                       "tension; gauge_2_strain, ...: at the others",
+                       StrainOf{i}});
+  }
 }
 
 std::size_t one(const Case&, const Result&) { return 1; }
@@ -153,7 +174,7 @@ const RunTable<HistoryRow>& run_table() {
        {"R_0_N", "force of the support at x = 0 on the beam, positive in the direction of the strike; empty: free end", &HistoryRow::first_reaction},
        {"R_l_N", "the same at x = length", &HistoryRow::last_reaction},
        {"W_J", "work of gravity and loads on striker and beam since the start", &HistoryRow::work}},
-      &Result::history, one, n_history_rows, {&HistoryRow::force, &HistoryRow::indentation, &HistoryRow::struck_deflection, &HistoryRow::striker_relative, &HistoryRow::back_stress}};
+      &Result::history, one, n_history_rows, {&HistoryRow::force, &HistoryRow::indentation, &HistoryRow::struck_deflection, &HistoryRow::striker_relative, &HistoryRow::back_stress}, add_gauges};
   return table;
 }
 
@@ -245,9 +266,10 @@ const RunTable<StrikeRow>& run_table() {
 
 std::string column_listing() {
   std::string text;
+  const OutputOptions with_gauge{.gauges = {Gauge{}}};
   for_each_run_table([&](const auto& table) {
     text += fmt::format("{}: {}\n", table.file, table.meaning);
-    for (const auto& column : table.columns) {
+    for (const auto& column : table.columns_of(with_gauge)) {
       text += fmt::format("  {:<25} {}\n", column.name, column.meaning);
     }
     text += '\n';

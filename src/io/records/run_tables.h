@@ -10,14 +10,22 @@ namespace subimpact {
 template <class Row>
 struct RunTable {
   const char* file;
-  const char* meaning;  ///< of a row
-  Columns<Row> columns;
+  const char* meaning;   ///< of a row
+  Columns<Row> columns;  ///< of every case
   std::vector<Row> Result::*rows;
   /// How many rows there are at an instant; 0: the run writes no such table.
   std::size_t (*group)(const Case& input, const Result& result);
   /// For a table that may be too long to hold: how many instants it has; what keeps its extremes.
   std::size_t (*n_instants)(const Result& result) = nullptr;
   std::vector<double Row::*> drawn = {};
+  /// Adds the columns that only such a case has.
+  void (*add_columns)(const OutputOptions& output, Columns<Row>& columns) = nullptr;
+
+  Columns<Row> columns_of(const OutputOptions& output) const {
+    Columns<Row> all = columns;
+    if (add_columns != nullptr) add_columns(output, all);
+    return all;
+  }
 };
 
 /// For SubImpact, Transition, HistoryRow, SectionRow, PointRow, ShapeRow, EnvelopeRow, StrikeRow.

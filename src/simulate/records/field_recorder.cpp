@@ -48,6 +48,13 @@ FieldRecorder::FieldRecorder(const RunParts& parts, Result& result, RowSink& row
     const double within = mesh.symmetric() ? std::min(x, length - x) : x;
     points_.push_back({x, *mesh.displacement_at(within)});
   }
+  for (const Gauge& gauge : parts.given.output.gauges) {
+    const double x = gauge.position * length;
+    const double within = mesh.symmetric() ? std::min(x, length - x) : x;
+    const double outer = 0.5 * material_.height();
+    gauges_.push_back(
+        {curvature_at(mesh, length, within), gauge.face == Face::front ? outer : -outer});
+  }
   for (std::size_t i = 0; i < field_.size(); ++i) envelope_[i].position = field_.position(i);
 }
 
@@ -196,7 +203,11 @@ SupportReactions::Forces FieldRecorder::reactions(const Instant& instant, const 
   return forces;
 }
 
-void FieldRecorder::add_reactions(HistoryRow& row, const State& y, Accounts& accounts) {
+void FieldRecorder::add_readings(HistoryRow& row, const State& y, Accounts& accounts) {
+  for (const GaugeReading& gauge : gauges_) {
+    const double curvature = gauge.curvature.of(beam_.mesh(), beam_.beam_positions(y));
+    row.gauge_strains.push_back(gauge.distance * curvature);
+  }
   if (!reactions_) return;
   const SupportReactions::Forces forces = reactions({row.time, false, false}, y, accounts);
   row.first_reaction = forces[0];

@@ -49,15 +49,17 @@ class Instants {
   long passed_ = 0;
 };
 
-/// Records shapes, envelope, permanent set, plastic zones, support reactions and the motion of
-/// points. Shapes are of regular instants and of the events of the contact. The envelope follows
-/// the history rows, some 4000 of them at most, and all shapes.
+/// Records shapes, envelope, permanent set, plastic zones, support reactions, the motion of points
+/// and the strains of gauges. Shapes are of regular instants and of the events of the contact. The
+/// envelope follows the history rows, some 4000 of them at most, and all shapes.
 class FieldRecorder {
  public:
   /// `rows` takes the rows. All must outlive this.
   FieldRecorder(const RunParts& parts, Result& result, RowSink& rows);
 
-  bool is_needed() const { return has_shapes() || !points_.empty() || reactions_; }
+  bool is_needed() const {
+    return has_shapes() || !points_.empty() || !gauges_.empty() || reactions_;
+  }
 
   /// The next regular instant (s) of the extremes along the beam; infinite: none.
   double next_instant() const;
@@ -72,7 +74,8 @@ class FieldRecorder {
   void add_shape(double time, const State& y, Accounts& accounts);
   /// At every history row: the motion of the points, and the envelope.
   void follow(double time, const State& y, Accounts& accounts);
-  void add_reactions(HistoryRow& row, const State& y, Accounts& accounts);
+  /// Reactions and strains of gauges.
+  void add_readings(HistoryRow& row, const State& y, Accounts& accounts);
   /// At the end: the envelope and, if the state `is_good`, the last shape and the permanent
   /// bending.
   void finish(double time, const State& y, Accounts& accounts, bool is_good);
@@ -119,6 +122,11 @@ class FieldRecorder {
   BeamField field_;
   std::optional<SupportReactions> reactions_;  // of a beam with supports
   std::vector<Point> points_;
+  struct GaugeReading {
+    CurvatureAt curvature;
+    double distance;  // of the fibre from the axis, m; on the back below 0
+  };
+  std::vector<GaugeReading> gauges_;
   std::vector<EnvelopeRow> envelope_;  // of the stations
   std::vector<Instant> waiting_;
   BeamField::States shapes_waiting_, others_waiting_;  // of those instants

@@ -443,7 +443,7 @@ HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
   row.momentum_error = audit_.momentum_error(time, y);
   row.beam_damping = energies.beam_damping;
   row.work = energies.work;
-  if (fields_) fields_->add_reactions(row, y, accounts);
+  if (fields_) fields_->add_readings(row, y, accounts);
   return row;
 }
 

@@ -28,14 +28,38 @@ std::optional<EndSupport> support_at(const BeamMesh& mesh, double x) {
   return rotation->is_zero() || has_hinge ? EndSupport::clamped : EndSupport::pinned;
 }
 
+CurvatureAt curvature_at(const BeamMesh& mesh, double length, double x) {
+  const auto positions = mesh.section_positions();
+  const std::size_t last = positions.size() - 1;
+  const auto after =
+      static_cast<std::size_t>(std::ranges::lower_bound(positions, x) - positions.begin());
+  const std::size_t section = std::min(after, last);
+  const auto line_to = [&](std::size_t next) {
+    if (next == section) return CurvatureAt{section, section, 1.0, 0.0};
+    const double share = (x - positions[section]) / (positions[next] - positions[section]);
+    return CurvatureAt{section, next, 1.0 - share, share};
+  };
+  if (positions[section] == x) return line_to(section);
+  if (after > 0 && after <= last) return line_to(after - 1);
+  const bool first = after == 0;
+  const double end = first ? 0.0 : end_of_part(mesh, length);
+  if ((!first && mesh.symmetric()) || support_at(mesh, end) == EndSupport::clamped) {
+    return line_to(first ? std::min<std::size_t>(1, last) : std::max<std::size_t>(last, 1) - 1);
+  }
+  return {section, section, (x - end) / (positions[section] - end), 0.0};
+}
+
 BeamField::BeamField(const StruckBeam& beam, double length, std::size_t most_stations)
     : beam_(beam),
       length_(length),
       bending_stiffness_(beam.sections().stiffness()),
       in_modes_(!beam.modal_stiffness().empty()) {
   const BeamMesh& mesh = beam.mesh();
-  const std::vector<Place> places = places_of(mesh, length, most_stations);
-  for (const Place& place : places) stations_.push_back(station_at(place));
+  const std::vector<double> places = places_of(mesh, length, most_stations);
+  for (const double x : places) {
+    stations_.push_back(
+        {x, *mesh.displacement_at(x), *mesh.rotation_at(x), curvature_at(mesh, length, x)});
+  }
   n_mirrored_ = count_mirrored(mesh, length, places);
   for (auto* values : {&displacements_, &curvatures_, &moments_, &velocities_, &rotations_}) {
     values->resize(size());
@@ -51,16 +75,16 @@ BeamField::BeamField(const StruckBeam& beam, double length, std::size_t most_sta
   for (Eigen::Index i = 0; i < n; ++i) {
     const Station& station = stations_[static_cast<std::size_t>(i)];
     put(station.displacement, i);
-    put(curvature_in_modes(station), n + i);
+    put(curvature_in_modes(station.curvature), n + i);
     put(station.rotation, 2 * n + i);
   }
   displacement_shares_ = by_mode_.topRows(n).cwiseAbs().colwise().maxCoeff();
   curvature_shares_ = by_mode_.middleRows(n, n).cwiseAbs().colwise().maxCoeff();
 }
 
-std::vector<BeamField::Place> BeamField::places_of(const BeamMesh& mesh, double length,
-                                                   std::size_t most_stations) {
-  std::vector<Place> places;
+std::vector<double> BeamField::places_of(const BeamMesh& mesh, double length,
+                                         std::size_t most_stations) {
+  std::vector<double> places;
   if (most_stations == 0 || !is_available(mesh)) return places;
   const auto positions = mesh.section_positions();
   const std::size_t last = mesh.n_sections() - 1;
@@ -69,25 +93,25 @@ std::vector<BeamField::Place> BeamField::places_of(const BeamMesh& mesh, double 
   const std::size_t most =
       std::max<std::size_t>(mesh.symmetric() ? most_stations / 2 + 1 : most_stations, 5);
   const std::size_t stride = std::max<std::size_t>((last + most - 4) / (most - 4), 1);
-  if (positions[0] > tolerance) places.push_back({0.0, 0, std::min<std::size_t>(1, last)});
+  if (positions[0] > tolerance) places.push_back(0.0);
   for (std::size_t i = 0; i <= last; ++i) {
     const bool chosen = i % stride == mesh.struck_section() % stride;
-    if (chosen || i == 0 || i == last) places.push_back({positions[i], i});
+    if (chosen || i == 0 || i == last) places.push_back(positions[i]);
   }
-  if (positions[last] < end - tolerance) places.push_back({end, last, last > 0 ? last - 1 : 0});
+  if (positions[last] < end - tolerance) places.push_back(end);
   return places;
 }
 
 std::size_t BeamField::count_mirrored(const BeamMesh& mesh, double length,
-                                      const std::vector<Place>& places) {
+                                      const std::vector<double>& places) {
   if (!mesh.symmetric()) return 0;
   const double before = end_of_part(mesh, length) - same_place * length;
-  const auto n = std::ranges::count_if(places, [&](const Place& p) { return p.x < before; });
+  const auto n = std::ranges::count_if(places, [&](double x) { return x < before; });
   return static_cast<std::size_t>(n);
 }
 
 std::size_t BeamField::whole_size(const BeamMesh& mesh, double length, std::size_t most_stations) {
-  const std::vector<Place> places = places_of(mesh, length, most_stations);
+  const std::vector<double> places = places_of(mesh, length, most_stations);
   return places.size() + count_mirrored(mesh, length, places);
 }
 
@@ -106,29 +130,12 @@ Eigen::Index BeamField::n_modes_needed(const double* positions, double tolerance
   return n;
 }
 
-BeamField::Station BeamField::station_at(const Place& place) const {
-  const BeamMesh& mesh = beam_.mesh();
-  const auto [x, section, next] = place;
-  Station station{x, *mesh.displacement_at(x), *mesh.rotation_at(x), section, section, 1.0, 0.0};
-  if (!next) return station;
-  const bool at_mid_span = mesh.symmetric() && x > 0.0;
-  if (!at_mid_span && support_at(mesh, x) != EndSupport::clamped) {
-    station.share = 0.0;
-  } else if (*next != section) {
-    const auto positions = mesh.section_positions();
-    station.next = *next;
-    station.next_share = (x - positions[section]) / (positions[*next] - positions[section]);
-    station.share = 1.0 - station.next_share;
-  }
-  return station;
-}
-
-SparseFunctional BeamField::curvature_in_modes(const Station& station) const {
-  SparseFunctional curvature = beam_.mesh().curvature_functional(station.section);
-  if (station.next == station.section && station.share == 1.0) return curvature;
-  const SparseFunctional next = beam_.mesh().curvature_functional(station.next);
+SparseFunctional BeamField::curvature_in_modes(const CurvatureAt& at) const {
+  SparseFunctional curvature = beam_.mesh().curvature_functional(at.section);
+  if (at.next == at.section && at.share == 1.0) return curvature;
+  const SparseFunctional next = beam_.mesh().curvature_functional(at.next);
   for (std::size_t k = 0; k < curvature.dense.size(); ++k) {
-    curvature.dense[k] = station.share * curvature.dense[k] + station.next_share * next.dense[k];
+    curvature.dense[k] = at.share * curvature.dense[k] + at.next_share * next.dense[k];
   }
   return curvature;
 }
@@ -177,13 +184,9 @@ void BeamField::read(const State& y, Accounts& accounts) {
   const auto unknowns = beam_.beam_positions(y);
   const Accounts::Bending bending = accounts.bending(y);
   for (std::size_t i = 0; i < size(); ++i) {
-    const Station& here = stations_[i];
-    displacements_[i] = here.displacement(unknowns);
-    const auto of_sections = [&](std::span<const double> values) {
-      return here.share * values[here.section] + here.next_share * values[here.next];
-    };
-    curvatures_[i] = of_sections(bending.curvatures);
-    moments_[i] = of_sections(bending.moments);
+    displacements_[i] = stations_[i].displacement(unknowns);
+    curvatures_[i] = stations_[i].curvature(bending.curvatures);
+    moments_[i] = stations_[i].curvature(bending.moments);
   }
 }
 

@@ -17,6 +17,24 @@ namespace subimpact {
 /// mesh without such functionals.
 std::optional<EndSupport> support_at(const BeamMesh& mesh, double x);
 
+/// The curvature at a point, from those of two sections of a mesh with their shares.
+struct CurvatureAt {
+  std::size_t section, next;
+  double share, next_share;
+
+  /// `values`: of all sections.
+  double operator()(std::span<const double> values) const {
+    return share * values[section] + next_share * values[next];
+  }
+  double of(const BeamMesh& mesh, std::span<const double> unknowns) const {
+    return share * mesh.curvature(section, unknowns) + next_share * mesh.curvature(next, unknowns);
+  }
+};
+/// At x (m) of the part modelled, of a beam of length `length` (m): linear between neighbouring
+/// sections. Between the outermost section and a free or pinned end it falls to zero; towards a
+/// clamped end and the middle of a half model it continues the line of the two nearest sections.
+CurvatureAt curvature_at(const BeamMesh& mesh, double length, double x);
+
 /// The field along the beam at some stations: displacement w, rotation of the section, velocity,
 /// curvature kappa, moment M and plastic curvature kappa - M/(E I).
 ///
@@ -78,21 +96,13 @@ class BeamField {
   struct Station {
     double position;  // m
     SparseFunctional displacement, rotation;
-    // The curvature is the sum of those of two sections with these shares.
-    std::size_t section, next;
-    double share, next_share;
+    CurvatureAt curvature;
   };
-  // Where a station is, with the section there; at an end without one, the two nearest sections.
-  struct Place {
-    double x;
-    std::size_t section;
-    std::optional<std::size_t> next = {};
-  };
-  static std::vector<Place> places_of(const BeamMesh& mesh, double length, std::size_t most);
+  // x of the stations, m.
+  static std::vector<double> places_of(const BeamMesh& mesh, double length, std::size_t most);
   static std::size_t count_mirrored(const BeamMesh& mesh, double length,
-                                    const std::vector<Place>& places);
-  Station station_at(const Place& place) const;
-  SparseFunctional curvature_in_modes(const Station& station) const;
+                                    const std::vector<double>& places);
+  SparseFunctional curvature_in_modes(const CurvatureAt& at) const;
   // The slowest ones, without which no station is off by more than the tolerance.
   Eigen::Index n_modes_needed(const double* positions, double tolerance) const;
 

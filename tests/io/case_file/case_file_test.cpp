@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "case_with.h"
 #include "paper_scene.h"
 #include "print.h"
@@ -42,6 +44,7 @@ TEST(CaseFileText, IsReadBackAsTheSameCase) {
   const std::vector<std::vector<std::string>> all = {
       {},
       {"beam.yield_stress=inf", "output.sections=0.5,0.25"},
+      {"output.gauges=[{position='0.3 m', face='front'}, {position=1}]"},
       {"model.mesh=hermite", "model.elements=40", "beam.damping.ratio=0.01",
        "model.section=elastic"},
       {"contact.law=hertz", "contact.stiffness=1.1e9"}};
@@ -50,6 +53,46 @@ TEST(CaseFileText, IsReadBackAsTheSameCase) {
     input.title = "\"quoted\" \\ <b> 'x' `y`\nsecond line \x01\x7f \xc3\xbc = [a]";
     const std::string text = case_file_text(input);
     EXPECT_EQ(texts_of(read_case_text(text, "copy").value), texts_of(input)) << text;
+  }
+}
+
+TEST(CaseFile, PlacesThingsByFractionsAndByLengths) {
+  const std::string gauges =
+      "output.gauges=[{position=0.25}, {position=\"300 mm\", face=\"front\"}]";
+  for (const double length : {0.7112, 0.4}) {
+    const std::string of_beam = fmt::format("beam.length={}", length);
+    const Case read =
+        paper_case_with({gauges, "beam.springs=[{position='0.1 m', stiffness=1e3}]", of_beam});
+    ASSERT_EQ(read.output.gauges.size(), 2u);
+    EXPECT_EQ(read.output.gauges[0].position, 0.25);
+    EXPECT_EQ(read.output.gauges[0].face, Face::back);
+    EXPECT_EQ(read.output.gauges[1].position, 0.3 / length);
+    EXPECT_EQ(read.output.gauges[1].face, Face::front);
+    EXPECT_EQ(read.scene.beam.springs[0].position, 0.1 / length);
+  }
+}
+
+TEST(CaseFile, RefusesGaugesBeyondTheBeamAndOnNoFace) {
+  const std::string allowed =
+      "allowed: a list of { position = x, face = f }, x from 0 to 1, or a length such as \"0.3 m\" "
+      "up "
+      "to the beam's, f one of \"front\", \"back\"";
+  const std::pair<const char*, const char*> faults[] = {
+      {"[{position=1.01}]", "position 1.01"},
+      {"[{position=\"0.8 m\"}]", "position 1.12"},
+      {"[{position=\"-1 mm\"}]", "position -0.001"},
+      {"[{position=0.3, face=\"top\"}]", "face \"top\""},
+      {"[{position=0.3, face=\"\"}]", "face \"\""},
+      {"[{position=0.3, face=2}]", "face=2"},
+      {"[{position=\"0.3 N\"}]", "0.3 N"},
+      {"[{face=\"back\"}]", "back"},
+      {"[{position=0.3, face=\"back\", length=2}]", "length=2"},
+      {"[0.3]", "0.3"}};
+  for (const auto& [value, found] : faults) {
+    const std::string message =
+        answer_of<CaseFileError>([&] { paper_case_with({std::string("output.gauges=") + value}); });
+    EXPECT_NE(message.find(found), std::string::npos) << message;
+    EXPECT_NE(message.find(allowed), std::string::npos) << message;
   }
 }
 

@@ -37,9 +37,9 @@ TEST(CaseKeys, AcceptEachOfTheirOwnChoices) {
   for (const CaseKey& key : case_keys()) {
     for (const Choice& choice : key.choices) {
       Case target = small_case();
-      const KeyValue value = key.type == KeyType::pair
-                                 ? KeyValue(std::vector<std::string>{choice.name, choice.name})
-                                 : KeyValue(choice.name);
+      KeyValue value = choice.name;
+      if (key.type == KeyType::pair) value = std::vector<std::string>{choice.name, choice.name};
+      if (key.type == KeyType::placed) value = PlacedValues{"face", {{0.5, {}, choice.name}}};
       assign(target, key, value);
       EXPECT_EQ(key.get(target), value) << key.name << " = " << choice.name;
     }

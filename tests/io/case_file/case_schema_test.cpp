@@ -144,7 +144,10 @@ TEST(CaseSchema, OffersTheChoicesOfTheTableWithTheirNotes) {
       for (const Choice& choice : key.choices) EXPECT_TRUE(std::regex_search(choice.name, pattern));
       continue;
     }
-    const Json& rules = key.type == KeyType::pair ? schema_of(key).at("items") : schema_of(key);
+    const Json& rules = key.type == KeyType::pair ? schema_of(key).at("items")
+                        : key.type == KeyType::placed
+                            ? schema_of(key).at("items").at("properties").at("face")
+                            : schema_of(key);
     const Json& notes = rules.at("x-taplo").at("docs").at("enumValues");
     ASSERT_EQ(rules.at("enum").size(), key.choices.size()) << key.name;
     ASSERT_EQ(notes.size(), key.choices.size()) << key.name;

@@ -27,7 +27,8 @@ Case small_case() { return read_case_text(small_case_text(), "small.toml").value
 
 TEST(ReadResults, IsTheInverseOfWritingThem) {
   const Case paper =
-      paper_case_with({"time.end=2e-5", "output.sections=0.5,0.3", "output.points=0.1,0.9"});
+      paper_case_with({"time.end=2e-5", "output.sections=0.5,0.3", "output.points=0.1,0.9",
+                       "output.gauges=[{position=0.3}, {position='0.5 m', face='front'}]"});
   Case linear = small_case();
   linear.scene.contact = {ContactKind::linear, 1e8, {}, {}, {}};
   linear.model.section = SectionKind::elastic;
@@ -48,6 +49,11 @@ TEST(ReadResults, IsTheInverseOfWritingThem) {
     EXPECT_EQ(csv_of<HistoryRow>(run.result), csv_of<HistoryRow>(result));
     EXPECT_EQ(csv_of<SectionRow>(run.result), csv_of<SectionRow>(result));
     EXPECT_EQ(run.result.section_history.empty(), input.output.sections.empty());
+    ASSERT_EQ(run.result.history.size(), result.history.size());
+    for (std::size_t i = 0; i < result.history.size(); ++i) {
+      EXPECT_EQ(run.result.history[i].gauge_strains, result.history[i].gauge_strains);
+    }
+    EXPECT_EQ(result.history.back().gauge_strains.size(), input.output.gauges.size());
     EXPECT_EQ(csv_of<EnvelopeRow>(run.result), csv_of<EnvelopeRow>(result));
     ASSERT_EQ(run.result.shapes.size(), result.shapes.size());
     const ShapeRow& last = result.shapes.back();
