@@ -97,10 +97,16 @@ TEST_F(ARun, AdvisesCommandsThatTheShellTakes) {
 }
 
 TEST(NewCase, OfEverySceneIsCommentedAndRuns) {
-  for (const char* scene : {"hammer", "ball-drop", "cantilever", "repeated-strikes"}) {
+  const char* scenes[] = {"hammer",           "ball-drop", "cantilever", "stop",
+                          "repeated-strikes", "tube",      "ensemble"};
+  const std::string listing = run_in(TemporaryDirectory(), {"new"}).output;
+  for (const char* scene : scenes) {
     const TemporaryDirectory directory;
     const Finished text = run_in(directory, {"new", scene});
     expect_in(text.output, "# ");
+    // It is listed with its first line.
+    expect_in(listing,
+              fmt::format("{:<18} {}\n", scene, text.output.substr(2, text.output.find('\n') - 2)));
     directory.write("case.toml", text.output);
     const Finished finished = run_in(directory, {"run", "case.toml", "--set", "time.end=1 ms"});
     // Pinned ends of a struck beam pull, and a run says so; a case to begin with has nothing else.

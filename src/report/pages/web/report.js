@@ -305,7 +305,7 @@ class Page {
   key(event) {
     const tag = event.target.tagName;
     if (tag === 'SELECT' || (tag === 'INPUT' && event.key.startsWith('Arrow'))) return;
-    if (tag === 'BUTTON' && (event.key === ' ' || event.key === 'Enter')) return;
+    if (['BUTTON', 'SUMMARY'].includes(tag) && (event.key === ' ' || event.key === 'Enter')) return;
     const {view, player} = this;
     const small = (view.to - view.from) / 200;
     actOn(event, {
