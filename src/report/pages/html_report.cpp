@@ -68,10 +68,11 @@ Json tiles(const std::vector<Answer>& all) {
 // numbers.
 std::string verdict(const Result& result) {
   const bool known = result.error_estimate.has_value(), all = known && result.all_certain();
-  return fmt::format("{}, {} contact {}.",
+  return fmt::format("{}{}, {} contact {}.",
                      all     ? "All sub-impacts are certain"
                      : known ? "Not all sub-impacts are certain"
                              : "How certain the sub-impacts are is not known",
+                     known && result.error_estimate->finer_meshes ? " on this mesh" : "",
                      all == result.contact_over ? "and" : "but",
                      result.contact_over ? "is over" : "may not be over");
 }
@@ -271,6 +272,8 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"tolerance_class", result.tolerance && result.tolerance->met ? "met" : "warning"},
       {"scatter_table",
        if_any(result.predictability, [&](const auto&) { return scatter_table(result); })},
+      {"predictability",
+       if_any(result.predictability, [&](const auto&) { return predictability_words(result); })},
       {"caveat", in_print(outcome_caveat(result))},
       {"cause", result.outcome.completed() ? "" : in_print(result.outcome.message)},
       {"warnings", result.warnings},
