@@ -77,11 +77,18 @@ std::string verdict(const Result& result) {
                      result.contact_over ? "is over" : "may not be over");
 }
 
-// What opens below it.
-std::string verdict_opens(std::size_t n_doubts, std::size_t n_warnings) {
-  std::string words = n_doubts > 0 ? counted(n_doubts, "doubt") : "";
-  if (n_warnings > 0) words += (words.empty() ? "" : ", ") + counted(n_warnings, "warning");
-  return words.empty() ? "Why" : words;
+// The verdict and what opens below it.
+void add_certainty(Json& page, const Result& result) {
+  const Json lines = headlines(result);
+  const auto n_doubts = static_cast<std::size_t>(
+      std::ranges::count(lines, Json("not"), [](const Json& line) { return line.at("kind"); }));
+  const std::size_t n_warnings = result.warnings.size();
+  std::string opens = n_doubts > 0 ? counted(n_doubts, "doubt") : "";
+  if (n_warnings > 0) opens += (opens.empty() ? "" : ", ") + counted(n_warnings, "warning");
+  page["headlines"] = lines;
+  page["verdict"] = verdict(result);
+  page["verdict_class"] = opens.empty() ? "certain" : "not";
+  page["verdict_opens"] = opens.empty() ? "Why" : opens;
 }
 
 // Until when the bodies touch each other, and how certain times are: the page's first tiles.
@@ -95,9 +102,8 @@ void add_times(std::vector<Answer>& first, const Result& result) {
                                     : plain_text(end, as_instant),
                    ""});
   if (result.error_estimate && result.error_estimate->largest_error > 0.0) {
-    first.push_back({"starts and ends",
-                     "within " + error_text(result.error_estimate->largest_error),
-                     "those of certain sub-impacts"});
+    first.push_back(
+        {"certain times", "within " + error_text(result.error_estimate->largest_error), ""});
   }
 }
 
@@ -239,9 +245,6 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   std::vector<DrawnFigures::Figure> drawn = figures.drawn;
   if (!measured.empty()) drawn.push_back(comparison.figure);
   const PageData data = page_data(run.input, result, comparison.forces);
-  const Json certainty = headlines(result);
-  const auto n_doubts = static_cast<std::size_t>(std::ranges::count(
-      certainty, "not", [](const Json& line) { return line.at("kind").get<std::string>(); }));
   std::string versions = run.program_version;
   for (const auto& [name, version] : run.libraries)
     versions += fmt::format(", {} {}", name, version);
@@ -263,10 +266,6 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"history_note", data.history_note},
       {"shapes_note", data.shapes_note},
       {"versions", versions},
-      {"verdict", verdict(result)},
-      {"verdict_class", n_doubts + result.warnings.size() == 0 ? "certain" : "not"},
-      {"verdict_opens", verdict_opens(n_doubts, result.warnings.size())},
-      {"headlines", certainty},
       {"tolerance",
        if_any(result.tolerance, [&](const auto& t) { return tolerance_words(t, result); })},
       {"tolerance_class", result.tolerance && result.tolerance->met ? "met" : "warning"},
@@ -286,6 +285,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"numbers", list_of(scalars_of(run), [](const NamedScalar& scalar) -> Json {
          return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
        })}};
+  add_certainty(page, result);
   add_answers(page, run.input, result);
   add_sub_impacts(page, result);
   return whole_page("pages/web/report.html", page, chart_library(dygraphs),
