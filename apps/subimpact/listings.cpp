@@ -25,17 +25,32 @@ int explain(ExplainOptions& options) {
   return done;
 }
 
+const std::vector<std::string> scenes = {"hammer",           "ball-drop", "cantilever", "stop",
+                                         "repeated-strikes", "tube",      "ensemble"};
+
 struct NewOptions {
-  std::string scene = "hammer";
+  std::string scene;  // none: all are listed
 };
 
+std::string_view case_of(const std::string& scene) {
+  return embedded_file("../../examples/cases/" + scene + ".toml");
+}
+
 int print_new_case(NewOptions& options) {
-  print("{}", embedded_file("../../examples/cases/" + options.scene + ".toml"));
+  if (!options.scene.empty()) {
+    print("{}", case_of(options.scene));
+    return done;
+  }
+  for (const std::string& scene : scenes) {  // with the first line of its case, after "# "
+    print("{:<18} {}\n", scene, case_of(scene).substr(2, case_of(scene).find('\n') - 2));
+  }
+  print("\nOne of them to begin with: subimpact new hammer > case.toml\n");
   return done;
 }
 
 struct ListingOptions {
-  bool as_schema = false;  // of `keys`
+  bool as_schema = false;  // of `keys`, as the word
+  std::string word;
 };
 
 template <std::string (*listing)()>
@@ -45,7 +60,12 @@ int print_listing(ListingOptions&) {
 }
 
 int print_keys(ListingOptions& options) {
-  print("{}", options.as_schema ? case_schema() : key_listing());
+  const std::string listing = options.as_schema ? case_schema() : key_listing(options.word);
+  if (listing.empty()) {
+    throw CLI::ValidationError("WORD",
+                               "no key has \"" + options.word + "\" in it; all: subimpact keys");
+  }
+  print("{}", listing);
   return done;
 }
 
@@ -73,12 +93,11 @@ void add_new(CLI::App& program, int& status) {
   auto [command, options] = add_command(
       program, status, "new", "Print a commented case file to begin with", print_new_case);
   command
-      .add_option("SCENE", options.scene,
-                  "hammer (default), ball-drop, cantilever or repeated-strikes")
-      ->check(CLI::IsMember({"hammer", "ball-drop", "cantilever", "repeated-strikes"}));
+      .add_option("SCENE", options.scene, "One of these; without it, all are listed, a line each")
+      ->check(CLI::IsMember(scenes));
   command.footer(
       "Examples:\n"
-      "  subimpact new > case.toml\n"
+      "  subimpact new\n"
       "  subimpact new cantilever > case.toml && subimpact run case.toml");
 }
 
@@ -89,10 +108,13 @@ void add_listings(CLI::App& program, int& status) {
   auto [command, options] =
       add_command(program, status, "keys",
                   "List the keys of a case file: units, allowed values, defaults", print_keys);
+  command.add_option("WORD", options.word,
+                     "List only keys with this word in their name, meaning or choices");
   command.add_flag("--schema", options.as_schema,
                    "Print a JSON schema (draft 2020-12) of the case file instead, for editors");
   command.footer(
-      "Examples:\n  subimpact keys\n  subimpact keys --schema > subimpact.schema.json\n\n"
+      "Examples:\n  subimpact keys\n  subimpact keys yield\n  subimpact keys --schema > "
+      "subimpact.schema.json\n\n"
       "A case file that begins with `#:schema ./subimpact.schema.json` is then completed and\n"
       "checked by editors that use Taplo (in VS Code: the extension Even Better TOML).");
   add_command(program, status, "columns",

@@ -129,7 +129,7 @@ int run_command_line(int argc, char** argv) {
                    "subimpact");
   program.footer(
       "Examples:\n"
-      "  subimpact new > case.toml\n"
+      "  subimpact new hammer > case.toml\n"
       "  subimpact explain case.toml\n"
       "  subimpact run case.toml --out out/first\n"
       "  subimpact plot out/first\n"

@@ -193,6 +193,40 @@ class ReportPage(PageTestCase):
             backgrounds.add(self.js("return getComputedStyle(document.body).backgroundColor"))
         self.assertEqual(len(backgrounds), 2)
 
+    def test_beam_and_force_are_on_the_first_screen_and_indentation_after_a_click(self):
+        inside = """
+            return arguments[0].map((id) => byId(id).closest('.panel').getBoundingClientRect())
+              .every(({top, bottom, left, right, height}) => height > 150 && top >= arguments[1] && left >= 0
+                     && bottom <= innerHeight && right <= innerWidth);"""
+        for width in (1400, 700):
+            for theme in ("light", "dark"):
+                self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+                    "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+                self.js("scrollTo(0, 0); page.showAll(); document.documentElement.dataset.theme = arguments[0]", theme)
+                self.frame()
+                self.assertTrue(self.js(inside, ["shape", "chart-force"], 0), f"{width}, {theme}")
+                answers = self.js("return [...document.querySelectorAll('.tiles.first b')].map((e) =>"
+                                  "[e.textContent, e.getBoundingClientRect().bottom <= innerHeight])")
+                self.assertGreaterEqual(len(answers), 5)
+                self.assertEqual([text for text, seen in answers if not seen], [])
+                self.js("document.querySelectorAll('[data-hit]')[4].click()")
+                self.frame()
+                self.assertTrue(self.js(inside, ["shape", "chart-force", "loop"],
+                                        self.js("return byId('bar').getBoundingClientRect().bottom - 1")), f"{width}, {theme}")
+        self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+    def test_it_opens_at_the_largest_force_and_folds_doubts_into_one_line(self):
+        rows = self.program.table("strike", "history.csv")
+        largest = max(float(row["force_N"]) for row in rows)
+        self.assertGreater(self.js("return page.strike.at('force_N', page.view.time)"), 0.98 * largest)
+        doubts = self.js("return document.querySelectorAll('.verdict li.not, .verdict .warning').length")
+        self.assertGreater(doubts, 0)
+        seen = "return document.querySelector('.verdict li').checkVisibility()"
+        self.assertFalse(self.js(seen))
+        self.find(".verdict summary").send_keys(" ")
+        self.assertTrue(self.js(seen))
+        self.assertFalse(self.js("return page.player.playing"))
+
     def test_it_fits_narrow_and_wide_windows(self):
         for width in (500, 800, 1900):
             self.assert_fits(width)

@@ -97,10 +97,14 @@ TEST_F(ARun, AdvisesCommandsThatTheShellTakes) {
 }
 
 TEST(NewCase, OfEverySceneIsCommentedAndRuns) {
-  for (const char* scene : {"hammer", "ball-drop", "cantilever", "repeated-strikes"}) {
+  const std::string listing = run_in(TemporaryDirectory(), {"new"}).output;
+  for (const char* scene :
+       {"hammer", "ball-drop", "cantilever", "stop", "repeated-strikes", "tube", "ensemble"}) {
     const TemporaryDirectory directory;
     const Finished text = run_in(directory, {"new", scene});
     expect_in(text.output, "# ");
+    const std::string first_line = text.output.substr(2, text.output.find('\n') - 1);
+    expect_in(listing, fmt::format("{:<18} {}", scene, first_line));
     directory.write("case.toml", text.output);
     const Finished finished = run_in(directory, {"run", "case.toml", "--set", "time.end=1 ms"});
     // Pinned ends of a struck beam pull, and a run says so; a case to begin with has nothing else.

@@ -34,7 +34,7 @@ inside 'cd /root
   apt-get -q update
   apt-get -q install -y --no-install-recommends ./subimpact_*.deb
   subimpact --version
-  subimpact new > case.toml
+  subimpact new hammer > case.toml
   subimpact run case.toml --out strike > printed
   grep -q "sub-impacts " printed
   cut -d, -f1-3 strike/events.csv | head -n 4'

@@ -104,8 +104,9 @@ std::string explanation(const RunForecast& forecast);
 std::string forecast_text(const RunForecast& forecast);
 std::string forecast_json(const RunForecast& forecast);
 
-/// All keys of a case file, with units, what they accept and their defaults.
-std::string key_listing();
+/// Keys of a case file, with units, what they accept and their defaults: all, or those with a word,
+/// in whatever case, in name, meaning or choices.
+std::string key_listing(const std::string& word = "");
 
 /// The methods and their Butcher tables, one line each.
 std::string method_listing();

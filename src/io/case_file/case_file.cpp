@@ -351,7 +351,7 @@ void refuse_other_files(const std::filesystem::path& path) {
     fail<CaseFileError>(
         "{}: is {}, no case file (TOML); give the path of one, such as {}", path.string(), what,
         std::filesystem::exists(beside, ignored) ? beside.string()
-                                                 : "the one of `subimpact new > case.toml`");
+                                                 : "the one of `subimpact new hammer > case.toml`");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <regex>
 
@@ -63,6 +64,72 @@ Json tiles(const std::vector<Answer>& all) {
   });
 }
 
+// Whether the run is sure of its sub-impacts and of the end of contact, in one line without
+// numbers.
+std::string verdict(const Result& result) {
+  const bool known = result.error_estimate.has_value(), all = known && result.all_certain();
+  return fmt::format("{}{}, {} contact {}.",
+                     all     ? "All sub-impacts are certain"
+                     : known ? "Not all sub-impacts are certain"
+                             : "How certain the sub-impacts are is not known",
+                     known && result.error_estimate->finer_meshes ? " on this mesh" : "",
+                     all == result.contact_over ? "and" : "but",
+                     result.contact_over ? "is over" : "may not be over");
+}
+
+// The verdict and what opens below it.
+void add_certainty(Json& page, const Result& result) {
+  const Json lines = headlines(result);
+  const auto n_doubts = static_cast<std::size_t>(
+      std::ranges::count(lines, Json("not"), [](const Json& line) { return line.at("kind"); }));
+  const std::size_t n_warnings = result.warnings.size();
+  std::string opens = n_doubts > 0 ? counted(n_doubts, "doubt") : "";
+  if (n_warnings > 0) opens += (opens.empty() ? "" : ", ") + counted(n_warnings, "warning");
+  page["headlines"] = lines;
+  page["verdict"] = verdict(result);
+  page["verdict_class"] = opens.empty() ? "certain" : "not";
+  page["verdict_opens"] = opens.empty() ? "Why" : opens;
+}
+
+// Until when the bodies touch each other, and how certain times are: the page's first tiles.
+void add_times(std::vector<Answer>& first, const Result& result) {
+  if (result.sub_impacts.empty()) return;
+  const SubImpact& last = result.sub_impacts.back();
+  const double end = result.end_of(last);
+  first.push_back({"last contact ends",
+                   !last.end        ? "not yet"
+                   : last.end_error ? text_of(Total{end, last.end_error}, as_instant)
+                                    : plain_text(end, as_instant),
+                   ""});
+  if (result.error_estimate && result.error_estimate->largest_error > 0.0) {
+    first.push_back(
+        {"certain times", "within " + error_text(result.error_estimate->largest_error), ""});
+  }
+}
+
+// Answers of the first screen, those about the model, all others.
+void add_answers(Json& page, const Case& input, const Result& result) {
+  const std::vector<Answer> all = answers(input, result);
+  const bool one_zone = !result.sub_impacts.empty() && result.sub_impacts.back().zone == 1;
+  std::vector<Answer> first, model, further;
+  // The first answer, who struck whom, is in the line at the top.
+  for (auto answer = all.begin() + 1; answer != all.end(); ++answer) {
+    const std::string& name = answer->name;
+    const bool is_first = name == "sub-impacts" || name == "largest force" ||
+                          name == "permanent set" || name == "contact over";
+    if (one_zone && name.starts_with("  zone")) {  // its impulse and end are those of the run
+      further.push_back({"in the zone", answer->note.substr(0, answer->note.rfind(", ")), ""});
+      continue;
+    }
+    (is_first ? first : name.starts_with("model") ? model : further).push_back(*answer);
+  }
+  add_times(first, result);
+  page["tiles"] = tiles(first);
+  page["further"] = tiles(further);
+  page["model"] = tiles(model);
+  page["has_model"] = !model.empty();
+}
+
 Json figure_list(const std::vector<DrawnFigures::Figure>& figures) {
   return list_of(figures, [number = 0](const auto& figure) mutable -> Json {
     return {{"name", figure.name},
@@ -76,7 +143,8 @@ void add_sub_impacts(Json& page, const Result& result) {
   const SubImpactRows table = sub_impact_rows(result, "±");
   page["n_columns"] = table.columns.size();
   page["columns"] = list_of(table.columns, [](const SubImpactRows::Column& column) -> Json {
-    return {{"name", column.name}, {"unit", column.unit == std::string("us") ? "µs" : column.unit}};
+    return {{"name", column.name},
+            {"unit", column.unit.starts_with("u") ? "µ" + column.unit.substr(1) : column.unit}};
   });
   Json list = Json::array();
   int zone = 0, subzone = 0;
@@ -177,7 +245,6 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   std::vector<DrawnFigures::Figure> drawn = figures.drawn;
   if (!measured.empty()) drawn.push_back(comparison.figure);
   const PageData data = page_data(run.input, result, comparison.forces);
-  const std::vector<Answer> all_answers = answers(run.input, result);
   std::string versions = run.program_version;
   for (const auto& [name, version] : run.libraries)
     versions += fmt::format(", {} {}", name, version);
@@ -186,7 +253,6 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   };
   Json page = {
       {"title", run.input.title.empty() ? "A strike" : run.input.title},
-      // The first answer, who struck whom, is in the line at the top.
       {"beam_kg", fmt::format("{:.4g}", scene.beam.mass())},
       {"meeting", scene.striker.fixed
                       ? std::string("on a stop")
@@ -200,16 +266,16 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"history_note", data.history_note},
       {"shapes_note", data.shapes_note},
       {"versions", versions},
-      {"headlines", headlines(result)},
       {"tolerance",
        if_any(result.tolerance, [&](const auto& t) { return tolerance_words(t, result); })},
       {"tolerance_class", result.tolerance && result.tolerance->met ? "met" : "warning"},
       {"scatter_table",
        if_any(result.predictability, [&](const auto&) { return scatter_table(result); })},
+      {"predictability",
+       if_any(result.predictability, [&](const auto&) { return predictability_words(result); })},
       {"caveat", in_print(outcome_caveat(result))},
       {"cause", result.outcome.completed() ? "" : in_print(result.outcome.message)},
       {"warnings", result.warnings},
-      {"tiles", tiles({all_answers.begin() + 1, all_answers.end()})},
       {"measured", comparison.section},
       {"flights", flights(result.error_estimate)},
       {"summary", in_print(run_summary(run.input, result, true))},
@@ -219,6 +285,8 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"numbers", list_of(scalars_of(run), [](const NamedScalar& scalar) -> Json {
          return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
        })}};
+  add_certainty(page, result);
+  add_answers(page, run.input, result);
   add_sub_impacts(page, result);
   return whole_page("pages/web/report.html", page, chart_library(dygraphs),
                     {"pages/web/data.js", "pages/web/axes.js", "pages/web/surroundings.js",

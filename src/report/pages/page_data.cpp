@@ -241,6 +241,7 @@ PageData page_data(const Case& input, const Result& result, const Json& overlay)
                })},
       {"struck_at", input.scene.striker.position * beam.length},
       {"nose_radius", input.scene.striker.nose_radius.value_or(0.0)},
+      {"ball", input.scene.nose() == NoseShape::sphere},
       {"yield_moment", may_yield(input) ? Json(beam.yield_moment()) : Json(nullptr)},
       {"yields", !result.plastic_zones.empty()},
       {"max_force", result.max_force},

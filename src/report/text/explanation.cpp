@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "case/counted.h"
@@ -279,10 +281,19 @@ std::string explanation(const RunForecast& forecast) {
   return text + fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", first.reason);
 }
 
-std::string key_listing() {
+std::string key_listing(const std::string& word) {
   std::string text;
   std::string table;
+  const auto lower = [](unsigned char letter) { return std::tolower(letter); };
+  const auto has_word = [&](const std::string& words) {
+    return word.empty() || !std::ranges::search(words, word, {}, lower, lower).empty();
+  };
   for (const CaseKey& key : case_keys()) {
+    const bool is_wanted = has_word(key.name) || has_word(key.meaning) ||
+                           std::ranges::any_of(key.choices, [&](const Choice& choice) {
+                             return has_word(choice.name) || has_word(choice.note);
+                           });
+    if (!is_wanted) continue;
     if (key.table() != table) text += fmt::format("\n[{}]\n", table = key.table());
     text += fmt::format("{:<18} {}\n", key.leaf(), key.meaning);
     const std::string allowed =

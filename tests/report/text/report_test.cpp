@@ -416,6 +416,21 @@ TEST(Listings, NameEveryKeyMethodAndTable) {
     expect_in(methods, fmt::format(" {} ", table.name));
 }
 
+TEST(Listings, OfKeysWithAWordHaveThoseAndNoOthers) {
+  const std::string found = key_listing("Yield");
+  expect_in(found, "[beam]", "\nyield_stress ", "[contact]", "\nyield_pressure ");
+  expect_not_in(found, "\nlength ", "\nwidth ", "[time]");
+  std::size_t n_named = 0;
+  for (const CaseKey& key : case_keys()) {
+    if (key.name.find("yield") == key.name.npos) continue;
+    expect_in(found, fmt::format("\n{} ", key.leaf()));
+    ++n_named;
+  }
+  EXPECT_GE(n_named, 3u);
+  expect_in(key_listing("stainless"), "\nmaterial ");  // by one of its choices
+  EXPECT_EQ(key_listing("unheard-of"), "");
+}
+
 TEST(DurationText, ChoosesTheUnit) {
   EXPECT_EQ(duration_text(12.5e-6), "12.5 us");
   EXPECT_EQ(duration_text(8e-3), "8 ms");

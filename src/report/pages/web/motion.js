@@ -57,10 +57,10 @@ class Motion {
       axes.line(points, {colour: colour('beam'), width: thick});
       this.drawPlastic(axes, points, shape, thick);
       if (strike.hasHistory) this.drawStriker(axes, time, origin, thick);
-      this.drawSupports(axes, points, thick);
       drawGround(axes, strike, points, thick);
       drawLoads(axes, strike, points, thick, time);
     });
+    this.drawSupports(axes, points, thick);  // beyond the axes, to be seen whole
   }
 
   // Sections that have yielded, the stronger the larger their plastic curvature.
@@ -86,7 +86,8 @@ class Motion {
     const touches = strike.at('force_N', time) > 0;
     const x = axes.toX(this.struck);
     const nose = axes.toY(1e3 * (strike.at('w_m_m', time) - origin)) - 0.5 * thick;
-    const radius = Math.min(14, Math.max(7, strike.nose_radius / strike.length * (axes.right - axes.left)));
+    // The nose is to the scale of the beam's length, unless it would be too small to see.
+    const radius = Math.max(4, strike.nose_radius / strike.length * (axes.right - axes.left));
     if (nose < axes.top + 4 || nose > axes.bottom + 70) {
       this.drawStrikerFar(axes, x, nose < axes.top + 4, time);
       return;
@@ -94,13 +95,17 @@ class Motion {
     draw.fillStyle = colour(touches ? 'striker' : 'striker-apart');
     draw.strokeStyle = colour('text');
     draw.lineWidth = 1;
-    const back = strike.stop ? axes.top : nose - 46;  // a stop reaches out of the picture
     draw.beginPath();
-    draw.moveTo(x - radius, back);
-    draw.lineTo(x + radius, back);
-    draw.lineTo(x + radius, nose - radius);
-    draw.arc(x, nose - radius, radius, 0, Math.PI);
-    draw.closePath();
+    if (strike.ball && !strike.stop) {
+      draw.arc(x, nose - radius, radius, 0, 2 * Math.PI);
+    } else {
+      const back = strike.stop ? axes.top : nose - Math.max(46, 2 * radius);  // a stop reaches out of the picture
+      draw.moveTo(x - radius, back);
+      draw.lineTo(x + radius, back);
+      draw.lineTo(x + radius, nose - radius);
+      draw.arc(x, nose - radius, radius, 0, Math.PI);
+      draw.closePath();
+    }
     draw.fill();
     draw.stroke();
   }
@@ -117,14 +122,15 @@ class Motion {
     draw.fillStyle = colour('soft');
     this.strike.ends.forEach((end, i) => {
       const [x, y] = points[i === 0 ? 0 : points.length - 1];
-      const inwards = i === 0 ? 1 : -1;
-      if (end === 'clamped') draw.fillRect(x - (i === 0 ? 0 : 6), y - 26, 6, 52);
+      if (end === 'clamped') draw.fillRect(x + (i === 0 ? -6 : 0), y - 26, 6, 52);
       if (end !== 'pinned') return;
+      const foot = y + thick / 2 + 15;
       draw.beginPath();
-      draw.moveTo(x + 4 * inwards, y + thick / 2);
-      draw.lineTo(x + 4 * inwards - 9, y + thick / 2 + 14);
-      draw.lineTo(x + 4 * inwards + 9, y + thick / 2 + 14);
+      draw.moveTo(x, y + thick / 2);
+      draw.lineTo(x - 9, foot);
+      draw.lineTo(x + 9, foot);
       draw.fill();
+      draw.fillRect(x - 12, foot, 24, 3);
     });
   }
 

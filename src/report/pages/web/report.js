@@ -46,10 +46,10 @@ class Page {
     this.charts = [];
     this.chosen = -1;
     this.motion = strike.hasShapes ? new Motion(strike, byId('shape'), byId('moment')) : null;
-    byId('motion').hidden = !strike.hasShapes;
+    for (const part of [byId('motion'), byId('moment').closest('.panel')]) part.hidden = !strike.hasShapes;
     this.loop = strike.hasHistory ? new Loop(strike, byId('loop'), view) : null;
     this.timeline = strike.sub_impacts.length > 0
-      ? new Timeline(strike, byId('timeline'), view, (index) => this.choose(index)) : null;
+      ? new Timeline(strike, byId('timeline'), view, (index) => this.show(index)) : null;
     byId('loop').closest('.panel').hidden = !this.loop;
     byId('timeline').closest('.panel').hidden = !this.timeline;
     byId('along').hidden = !strike.envelope;
@@ -70,7 +70,7 @@ class Page {
   addCharts() {
     const {strike} = this;
     if (typeof Dygraph === 'undefined' || !strike.hasHistory) {
-      byId('charts').hidden = true;
+      byId('charts').hidden = byId('chart-force').hidden = true;
       document.getElementById('chart-measured')?.remove();
       return;
     }
@@ -115,7 +115,7 @@ class Page {
     const watcher = new IntersectionObserver((entries) => {
       for (const {target, isIntersecting} of entries) target.classList.toggle('away', !isIntersecting);
     }, {rootMargin: '200px'});
-    document.querySelectorAll('#strike .panel').forEach((panel) => watcher.observe(panel));
+    document.querySelectorAll('#strike .panel, #more .panel').forEach((panel) => watcher.observe(panel));
   }
 
   // Drawing waits for the next frame, so that many changes within one are drawn once.
@@ -220,6 +220,13 @@ class Page {
     this.announce();
   }
 
+  // The same, with beam, force and indentation brought into sight below the bar of controls.
+  show(index) {
+    this.choose(index);
+    byId('strike').style.scrollMarginTop = `${byId('bar').offsetHeight}px`;
+    byId('strike').scrollIntoView({block: 'start'});
+  }
+
   chooseBeside(sense) {
     const hits = this.strike.sub_impacts;
     const now = this.chosen >= 0 ? this.chosen : -0.5 * (1 + sense);
@@ -235,10 +242,7 @@ class Page {
   addTable() {
     for (const row of document.querySelectorAll('[data-hit]')) {
       const index = Number(row.dataset.hit);
-      row.addEventListener('click', () => {
-        this.choose(index);
-        byId('strike').scrollIntoView({block: 'start'});
-      });
+      row.addEventListener('click', () => this.show(index));
       const cell = row.cells[0];
       const button = document.createElement('button');
       button.textContent = cell.textContent.trim();
@@ -301,7 +305,7 @@ class Page {
   key(event) {
     const tag = event.target.tagName;
     if (tag === 'SELECT' || (tag === 'INPUT' && event.key.startsWith('Arrow'))) return;
-    if (tag === 'BUTTON' && (event.key === ' ' || event.key === 'Enter')) return;
+    if (['BUTTON', 'SUMMARY'].includes(tag) && (event.key === ' ' || event.key === 'Enter')) return;
     const {view, player} = this;
     const small = (view.to - view.from) / 200;
     actOn(event, {
@@ -326,5 +330,6 @@ if (typeof Dygraph === 'undefined') byId('stills').classList.add('open');
 byId('show-stills').addEventListener('click', () => {
   byId('show-stills').setAttribute('aria-expanded', String(byId('stills').classList.toggle('open')));
 });
+addEventListener('beforeprint', () => { document.querySelector('details.verdict').open = true; });
 addCopyButton();
 startPage((data) => new Page(data));

@@ -140,6 +140,10 @@ class SweepMap {
     }
     if (tone === null) this.drawLack(mark);
     else if (this.runs.certainty(mark.run) === 'uncertain') this.drawCross(mark, this.shade.contrast(value));
+    if (tone === null || mark.width < 42 || mark.height < 40) return;
+    draw.fillStyle = this.shade.contrast(value);
+    draw.textAlign = 'center';
+    draw.fillText(this.shade.column.words?.[value] ?? printed(value, 3), mark.left + mark.width / 2, mark.top + mark.height / 2 + 14);
   }
 
   // Count and order of the run's sub-impacts are not certain.
