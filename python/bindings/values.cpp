@@ -9,7 +9,7 @@
 
 #include "bindings.h"
 #include "case/keys/units.h"
-#include "io/records/record.h"
+#include "io/records/values_of_keys.h"
 
 namespace subimpact::python {
 namespace {

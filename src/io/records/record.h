@@ -5,15 +5,11 @@
 #include <functional>
 #include <type_traits>
 
-#include <nlohmann/json.hpp>
-
 #include "case/keys/case_choices.h"
-#include "subimpact/case/case_keys.h"
+#include "io/records/values_of_keys.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {
-
-using Json = nlohmann::ordered_json;  // readers see members in the order written
 
 /// The integer that a JSON value holds. Throws std::out_of_range for 1e300, 0.5 or -1 where they do
 /// not fit: their conversion is undefined.
@@ -59,11 +55,6 @@ inline void assign(std::vector<std::string>& texts, const Json& json, const std:
   texts = json.get<std::vector<std::string>>();
 }
 inline Json json_of(const Json& json, Form) { return json; }
-
-/// A value of a key: a number, a text, a list; things at points are a list of objects.
-Json json_of(const KeyValue& value);
-/// Its inverse, also for what a case file holds. Nothing if no key can hold it (a mixed list).
-std::optional<KeyValue> key_value_of(const CaseKey& key, const Json& json);
 
 template <std::integral Int>
 Json json_of(Int value, Form form) {

@@ -266,7 +266,8 @@ const RunTable<StrikeRow>& run_table() {
 
 std::string column_listing() {
   std::string text;
-  const OutputOptions with_gauge{.gauges = {Gauge{}}};
+  OutputOptions with_gauge;
+  with_gauge.gauges.emplace_back();
   for_each_run_table([&](const auto& table) {
     text += fmt::format("{}: {}\n", table.file, table.meaning);
     for (const auto& column : table.columns_of(with_gauge)) {
