@@ -17,7 +17,7 @@
 namespace subimpact {
 namespace {
 
-constexpr double share_of_work = 0.1;
+constexpr double share_of_work = 0.25;
 constexpr double least_work = 4e6;  // some 20 ms
 constexpr double dearer = 4.0;      // an evaluation on few cells that yield, over one on many
 constexpr int most_cells = 481;
