@@ -43,8 +43,9 @@ double evaluation_cost(const Case& input);
 double counted_work(const Case& input, const Result& result);
 
 /// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
-/// (ResolvedSettings::contact_time), and the work is limited to this: some 2 s of a processor. Three times as much
-/// makes few sub-impacts more certain (of the published strike 17 of 19 instead of 16).
+/// (ResolvedSettings::contact_time), and the work is limited to this: some 2 s of a processor.
+/// Three times as much makes few sub-impacts more certain (of the published strike 17 of 19 instead
+/// of 16).
 constexpr double default_work_limit = 1e9;
 
 /// If a beam bends elastically: elements (Hermite, or spectral with shear) in natural modes, by the
