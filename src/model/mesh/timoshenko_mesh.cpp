@@ -270,7 +270,8 @@ void TimoshenkoMesh::bending_forces(std::span<const double> moments,
 // With the shear strain of face j times kGA, S_j = rise (w_{j+1} - w_j) - turn (r phi_j): the node
 // at its left has the force S_j - S_{j-1}, the face itself arm S_j. Written for a node and its face
 // at once, with coefficients that alternate, so that eight unknowns that follow each other are
-// computed together; differences first, so that a large translation costs no digits.
+// computed together; differences first, so that a large translation costs no digits. Which unknowns
+// those are must not depend on addresses: results would, in their last digits.
 void TimoshenkoMesh::add_shear_forces(std::span<const double> unknowns,
                                       std::span<double> forces) const {
   const double* q = unknowns.data() + n_before_;
@@ -291,7 +292,6 @@ void TimoshenkoMesh::add_shear_forces(std::span<const double> unknowns,
       f[k + 1] += arm * shear(k);
     };
     std::size_t k = begin + 2;
-    for (; k < end && !begins_line(f + k); k += 2) node_and_face(k);
     const Lanes rises = alternating(rise, 0.0);
     const Lanes slopes = alternating(-turn, arm * rise);
     const Lanes turns = alternating(0.0, -arm * turn);
