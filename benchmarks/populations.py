@@ -15,17 +15,17 @@ from subimpact.sweep import engines
 
 SCENE = dict(
     beam=dict(length=0.7112, width=0.0163, thickness=0.0075, density=2600.0,
-              youngs_modulus=71.96e9, yield_stress=150e6),
+              youngs_modulus=71.96e9, yield_stress=150e6, theory="rayleigh"),
     striker=dict(mass=0.201, nose_radius=0.01, velocity=15.9),
+    contact=dict(law="foundation"),
     output=dict(interval=0.0, shapes=0.0),
     time=dict(end=8e-3))
 QUICK = si.Case(SCENE, model=dict(section="elastic", mesh="hermite", elements=100),
                 solver=dict(method="exponential"))  # some 2 ms per run
-YIELDING = si.Case({**SCENE, "beam": {**SCENE["beam"], "theory": "rayleigh"}}, time=dict(end=1e-3),
-                   contact=dict(law="foundation"), model=dict(section="exact", mesh="cells", segments=801),
+YIELDING = si.Case({**SCENE, "time": dict(end=1e-3)}, model=dict(section="exact", mesh="cells", segments=801),
                    solver=dict(method="central-difference"))  # some 10 ms per run
-WITH_SHEAR = si.Case({**SCENE, "beam": {**SCENE["beam"], "theory": "timoshenko", "poisson": 0.3}},
-                     time=dict(end=1e-3), contact=dict(law="line", yield_pressure="by-depth"),
+WITH_SHEAR = si.Case({**SCENE, "beam": {**SCENE["beam"], "theory": "timoshenko", "poisson": 0.3},
+                      "contact": dict(law="line", yield_pressure="by-depth"), "time": dict(end=1e-3)},
                      model=dict(section="exact", mesh="spectral", elements=64),
                      solver=dict(method="central-difference"))  # some 12 ms per run
 SLOW = si.Case(SCENE, model=dict(section="exact", mesh="cells", segments=501),

@@ -25,7 +25,7 @@ class ResultWriter::RowFile {
   explicit RowFile(const RunTable<Row>& table, const OutputOptions& output = {})
       : name_(table.file),
         columns_(table.columns_of(output)),
-        heading_(csv_heading(table.columns_of(output))),
+        heading_(csv_heading(std::any_cast<const Columns<Row>&>(columns_))),
         pending_(heading_) {}
   ~RowFile() { leave_directory(); }
   RowFile(const RowFile&) = delete;

@@ -65,11 +65,6 @@ inline Lanes alternating(double even, double odd) {
   return result;
 }
 
-constexpr std::size_t bytes_of_line = n_lanes * sizeof(double);
-inline bool begins_line(const double* at) {
-  return reinterpret_cast<std::uintptr_t>(at) % bytes_of_line == 0;
-}
-
 /// result[i] = value of i, eight at a time from the first cache line on that begins in `result`: a
 /// store that straddles two lines is slow, if they are not in the nearest cache more so.
 /// `value(at)` is written with at(x) for x[i], which is one number or Lanes:
@@ -77,10 +72,13 @@ inline bool begins_line(const double* at) {
 ///     assign_by_lines(y, n, [=](auto at) { return at(x) + factor * at(z); });
 template <class Value>
 void assign_by_lines(double* result, std::size_t n, Value value) {
+  constexpr std::size_t line = n_lanes * sizeof(double);
+  const std::size_t past = reinterpret_cast<std::uintptr_t>(result) % line;
+  const std::size_t head = past == 0 ? 0 : std::min(n, (line - past) / sizeof(double));
   std::size_t i = 0;
   const auto one = [&i](const double* x) { return x[i]; };
   const auto eight = [&i](const double* x) { return lanes_at(x + i); };
-  for (; i < n && !begins_line(result + i); ++i) result[i] = value(one);
+  for (; i < head; ++i) result[i] = value(one);
   for (; i + n_lanes <= n; i += n_lanes) store(value(eight), result + i);
   for (; i < n; ++i) result[i] = value(one);
 }

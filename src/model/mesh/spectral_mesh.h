@@ -46,7 +46,7 @@ class SpectralMesh final : public BeamMesh {
   // strains, then of curvatures (1/m), by unknowns; and the columns, all strains of an unknown.
   static constexpr std::size_t of_shear = 0, of_bending = n_points;  // first rows
   struct Strains {
-    explicit Strains(double length, double gyration);
+    Strains(double length, double gyration);
     std::array<Values, 2 * n_points> rows;
     std::array<std::array<double, 2 * n_points>, 2 * n_nodes> columns;
   };

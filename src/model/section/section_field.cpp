@@ -164,26 +164,8 @@ void SectionField::exchange(Snapshot& snapshot) {
   }
 }
 
-bool SectionField::any_outside(std::span<const double> curvatures) const {
-  const double* k = curvatures.data();
-  const double* low = low_.data();
-  const double* high = high_.data();
-  std::size_t i = 0;
-  for (; i + n_lanes <= curvatures.size(); i += n_lanes) {
-    const Lanes here = lanes_at(k + i);
-    if (any((here > lanes_at(high + i)) | (here < lanes_at(low + i)))) return true;
-  }
-  for (; i < curvatures.size(); ++i) {
-    if (k[i] > high[i] || k[i] < low[i]) return true;
-  }
-  return false;
-}
-
-std::size_t SectionField::commit(std::span<const double> curvatures,
-                                 std::span<const double> rates) {
-  flowing_.clear();
-  if (!law_) return 0;
-  std::size_t n_flowed = 0;
+template <class Visit>
+void SectionField::for_each_outside(std::span<const double> curvatures, Visit visit) const {
   const double* k = curvatures.data();
   const double* low = low_.data();
   const double* high = high_.data();
@@ -192,8 +174,22 @@ std::size_t SectionField::commit(std::span<const double> curvatures,
     return (here > lanes_at(high + i)) | (here < lanes_at(low + i));
   };
   const auto is_outside = [=](std::size_t i) { return k[i] > high[i] || k[i] < low[i]; };
-  for_each_found(curvatures.size(), are_outside, is_outside, [&](std::size_t i) {
-    commit_reversal(i, k[i]);
+  for_each_found(curvatures.size(), are_outside, is_outside, visit);
+}
+
+bool SectionField::any_outside(std::span<const double> curvatures) const {
+  bool any = false;
+  for_each_outside(curvatures, [&](std::size_t) { any = true; });
+  return any;
+}
+
+std::size_t SectionField::commit(std::span<const double> curvatures,
+                                 std::span<const double> rates) {
+  flowing_.clear();
+  if (!law_) return 0;
+  std::size_t n_flowed = 0;
+  for_each_outside(curvatures, [&](std::size_t i) {
+    commit_reversal(i, curvatures[i]);
     ++n_flowed;
     const SectionHistory& now = history(i);
     const bool flows_on = !rates.empty() && now.direction * rates[i] > 0.0;

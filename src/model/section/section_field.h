@@ -73,9 +73,10 @@ class SectionField {
   const SectionHistory& history(std::size_t section) const;
 
   /// Bounds of the windows within which nothing flows, 1/m.
-  bool any_outside(std::span<const double> curvatures) const;  ///< of their windows
   std::span<const double> window_low() const { return low_; }
   std::span<const double> window_high() const { return high_; }
+  /// Whether one of these curvatures is outside the window of its section.
+  bool any_outside(std::span<const double> curvatures) const;
 
   bool has_yielded(std::size_t section) const;
   std::size_t n_yielded() const { return n_yielded_; }
@@ -90,6 +91,8 @@ class SectionField {
 
  private:
   SectionHistory& stored_history(std::size_t section);
+  template <class Visit>
+  void for_each_outside(std::span<const double> curvatures, Visit visit) const;
   void follow_history(std::size_t section);
   // Energies of a yielded section without moment; while nothing flows, a moment M adds M^2/(2
   // stiffness) to the elastic one. They follow from the history alone, and are computed when first

@@ -43,17 +43,14 @@ FieldRecorder::FieldRecorder(const RunParts& parts, Result& result, RowSink& row
     reactions_.emplace(beam_, length, parts.problem.striker.position * length);
     if (!reactions_->exist()) reactions_.reset();
   }
+  const auto in_part = [&](double x) { return mesh.symmetric() ? std::min(x, length - x) : x; };
   for (const double fraction : parts.given.output.points) {
-    const double x = fraction * length;
-    const double within = mesh.symmetric() ? std::min(x, length - x) : x;
-    points_.push_back({x, *mesh.displacement_at(within)});
+    points_.push_back({fraction * length, *mesh.displacement_at(in_part(fraction * length))});
   }
   for (const Gauge& gauge : parts.given.output.gauges) {
-    const double x = gauge.position * length;
-    const double within = mesh.symmetric() ? std::min(x, length - x) : x;
     const double outer = 0.5 * material_.height();
-    gauges_.push_back(
-        {curvature_at(mesh, length, within), gauge.face == Face::front ? outer : -outer});
+    gauges_.push_back({curvature_at(mesh, length, in_part(gauge.position * length)),
+                       gauge.face == Face::front ? outer : -outer});
   }
   for (std::size_t i = 0; i < field_.size(); ++i) envelope_[i].position = field_.position(i);
 }

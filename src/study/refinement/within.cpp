@@ -52,6 +52,10 @@ double work_of_fixed_steps(const Case& input) {
          static_cast<double>(used.n_unknowns);
 }
 
+double work_limit_of(const Case& input) {
+  return input.accuracy.event_times ? input.accuracy.work_limit : default_work_limit;
+}
+
 // The coarsest mesh worth a run or, where that would take more work than is allowed, a coarser one.
 Case affordable_first(const Refinement& refinement, double work_limit) {
   const Case& first = refinement.first();
@@ -80,9 +84,8 @@ class Search {
       : input_(input), open_(open), options_(options) {
     options_.make = maker_of(options);
     choose(may_yield(input));
-    const std::optional<double>& tolerance = input.accuracy.event_times;
-    tolerance_ = tolerance.value_or(default_tolerance(*refinement_));
-    work_limit_ = tolerance ? input.accuracy.work_limit : default_work_limit;
+    tolerance_ = input.accuracy.event_times.value_or(default_tolerance(*refinement_));
+    work_limit_ = work_limit_of(input);
   }
 
   WithinRun run() {
@@ -409,7 +412,7 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open) {
   ChosenModel chosen = choose_model(input, open, may_yield(input));
   const Refinement refinement(chosen.input, open);
   const std::optional<double>& tolerance = input.accuracy.event_times;
-  const double work_limit = tolerance ? input.accuracy.work_limit : default_work_limit;
+  const double work_limit = work_limit_of(input);
   chosen.input = affordable_first(refinement, work_limit);
   if (const char* key = refinement.fixed_key()) {
     chosen.reason += fmt::format("; {} is fixed by the case", key);

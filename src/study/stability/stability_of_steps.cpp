@@ -14,6 +14,7 @@
 #include "study/stability/free_vibration.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/options.h"
+#include "subimpact/study/model/scene_choice.h"
 #include "subimpact/study/stability/stability.h"
 #include "system/contact/contact_resonance.h"
 
@@ -164,7 +165,8 @@ std::vector<CriticalStep> critical_steps(const Case& input, const std::vector<st
     CriticalStep& row = list[i];
     Case trial = with_method(input, row.method);
     trial.scene.beam.theory = row.theory;
-    if (trial.scene.beam.shears() && !trial.scene.beam.poisson) trial.scene.beam.poisson = 0.3;
+    if (trial.scene.beam.shears() && !trial.scene.beam.poisson)
+      trial.scene.beam.poisson = usual_poisson;
     trial.model.segments = row.segments;
     FreeVibration beam(trial);
     row.highest_frequency = beam.highest_frequency();

@@ -75,8 +75,7 @@ TEST(CaseFile, PlacesThingsByFractionsAndByLengths) {
 TEST(CaseFile, RefusesGaugesBeyondTheBeamAndOnNoFace) {
   const std::string allowed =
       "allowed: a list of { position = x, face = f }, x from 0 to 1, or a length such as \"0.3 m\" "
-      "up "
-      "to the beam's, f one of \"front\", \"back\"";
+      "up to the beam's, f one of \"front\", \"back\"";
   const std::pair<const char*, const char*> faults[] = {
       {"[{position=1.01}]", "position 1.01"},
       {"[{position=\"0.8 m\"}]", "position 1.12"},
