@@ -49,8 +49,8 @@ int print_new_case(NewOptions& options) {
 }
 
 struct ListingOptions {
-  bool as_schema = false;  // of `keys`, as the word
-  std::string word;
+  bool as_schema = false;  // of `keys`
+  std::string word;        // of `keys`: in those wanted
 };
 
 template <std::string (*listing)()>
@@ -108,10 +108,12 @@ void add_listings(CLI::App& program, int& status) {
   auto [command, options] =
       add_command(program, status, "keys",
                   "List the keys of a case file: units, allowed values, defaults", print_keys);
-  command.add_option("WORD", options.word,
-                     "List only keys with this word in their name, meaning or choices");
-  command.add_flag("--schema", options.as_schema,
-                   "Print a JSON schema (draft 2020-12) of the case file instead, for editors");
+  CLI::Option* word = command.add_option(
+      "WORD", options.word, "List only keys with this word in their name, meaning or choices");
+  command
+      .add_flag("--schema", options.as_schema,
+                "Print a JSON schema (draft 2020-12) of the case file instead, for editors")
+      ->excludes(word);
   command.footer(
       "Examples:\n  subimpact keys\n  subimpact keys yield\n  subimpact keys --schema > "
       "subimpact.schema.json\n\n"

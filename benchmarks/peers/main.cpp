@@ -224,9 +224,11 @@ int run_program(int argc, char** argv) {
   std::string table;
   std::string only;
   double end = 2e-3;
-  app.add_option("--scenes", names,
-                 "elastic, exact, layered, elastic-with-shear, exact-with-shear (default: all)")
-      ->delimiter(',');
+  std::vector<std::string> known;
+  for (const PeerScene& scene : peer_scenes) known.emplace_back(scene.name);
+  app.add_option("--scenes", names, "Some of the scenes (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(known));
   app.add_option("--end", end, "s")->capture_default_str();
   app.add_option("--only", only, "contestants whose name contains this, and subimpact");
   app.add_option(

@@ -64,6 +64,7 @@ TEST(BadCommandLine, EndsWithStatus2AndSaysWhyAndLeavesNothing) {
       {{"run", paper, "--set", "model.segments=500"},
        "--set model.segments=500: model.segments is 500|odd"},
       {{"new", "bell"}, "bell|hammer|ball-drop|cantilever|stop|repeated-strikes|tube|ensemble"},
+      {{"keys", "yield", "--schema"}, "excludes"},
       {{"keys", "unheard-of"}, "no key has \"unheard-of\"|subimpact keys"},
       {{"run", paper, "--error-bars=none"}, "none|off"},
       {{"run", paper, "--within", "1us", "--error-bars=off"}, "--error-bars=off"},
