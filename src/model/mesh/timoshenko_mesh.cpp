@@ -295,7 +295,7 @@ void TimoshenkoMesh::add_shear_forces(std::span<const double> unknowns,
     const Lanes rises = alternating(rise, 0.0);
     const Lanes slopes = alternating(-turn, arm * rise);
     const Lanes turns = alternating(0.0, -arm * turn);
-    for (; k + n_lanes <= end; k += n_lanes) {
+    for (; k + n_lanes < end; k += n_lanes) {  // up to q[k + 9], and q[end] is the last
       const Lanes here = lanes_at(q + k);
       const Lanes second = (lanes_at(q + k + 2) - here) - (here - lanes_at(q + k - 2));
       const Lanes first = lanes_at(q + k + 1) - lanes_at(q + k - 1);

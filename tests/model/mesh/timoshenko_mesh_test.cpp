@@ -64,6 +64,26 @@ TEST(MeshesThatShear, ShearForcesAreThoseOfTheStiffnessMatrixAndItsEnergy) {
   });
 }
 
+TEST(MeshesThatShear, ReadNothingBesideTheirUnknowns) {
+  const auto check = [](const BeamMesh& mesh) {
+    constexpr std::size_t beside = 16;
+    const std::size_t n = mesh.n_unknowns();
+    const std::vector<double> q = random_numbers(4, n);
+    std::vector<double> surrounded(n + 2 * beside, NAN), forces(n), expected(n);
+    std::ranges::copy(q, surrounded.begin() + beside);
+    mesh.add_shear_forces({surrounded.data() + beside, n}, forces);
+    mesh.add_shear_forces(q, expected);
+    EXPECT_EQ(forces, expected) << mesh.description();
+    std::vector<double> kappa(mesh.n_sections());
+    mesh.curvatures({surrounded.data() + beside, n}, kappa);
+    for (const double k : kappa) EXPECT_TRUE(std::isfinite(k)) << mesh.description();
+  };
+  for (std::size_t n = 5; n < 24; ++n) {  // every remainder of eight unknowns
+    for (const auto& mesh : meshes<TimoshenkoMesh>({n}, {0.1, 0.5, 0.77}, true)) check(mesh);
+  }
+  for (const auto& mesh : meshes<SpectralMesh>({2, 5, 12}, {0.27, 0.5, 0.71}, false)) check(mesh);
+}
+
 TEST(TimoshenkoMesh, RigidMotionsOfAFreeBeamStrainNothing) {
   for (const double position : {0.13, 0.5}) {
     const TimoshenkoMesh mesh(shearing_beam(), position, 31, Extent::whole);
