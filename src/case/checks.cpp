@@ -240,10 +240,12 @@ void check_dimensions(const Case& input) {
 }
 
 void check_section(const Case& input) {
-  check_dimensions(input);
   const Beam& beam = input.scene.beam;
   const SectionShape shape = beam.section.shape;
   const CrossSection::Solid outer = beam.outer_solid(), gap = beam.gap();
+  const bool has_no_size = outer.height == 0.0 && outer.width == 0.0;
+  if (beam.fixed && shape == SectionShape::rectangle && has_no_size) return;
+  check_dimensions(input);
   const bool is_hollow =
       shape == SectionShape::tube || shape == SectionShape::box || shape == SectionShape::i;
   if (is_hollow && !(gap.height > 0.0 && gap.width > 0.0)) {

@@ -264,6 +264,7 @@ void check_mesh(const Case& input) {
 }
 
 MeshKind default_mesh(const Case& input) {
+  if (input.scene.beam.fixed) return MeshKind::rigid;
   if (!strikes_end(input) || input.model.spacing == CellSpacing::points) return MeshKind::cells;
   return input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite;
 }

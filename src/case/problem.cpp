@@ -83,6 +83,16 @@ const char* width_key(const Beam& beam) {
                                : "beam.width";
 }
 
+Beam sized_beam(const Case& input) {
+  Beam beam = input.scene.beam;
+  if (!beam.fixed) return beam;
+  if (beam.length == 0.0) beam.length = 1.0;
+  if (beam.area() == 0.0) beam.width = beam.thickness = 0.05 * beam.length;
+  if (beam.density == 0.0) beam.density = 1.0;
+  beam.youngs_modulus = 1e30 * beam.density;
+  return beam;
+}
+
 bool may_yield(const Case& input) {
   return input.model.section != SectionKind::elastic &&
          (input.parts.mesh || descriptor_of(input.model.mesh).bends) &&
@@ -128,14 +138,16 @@ std::shared_ptr<const ContactLaw> contact_law_of(const Case& input) {
   return input.parts.contact_law ? input.parts.contact_law : make_contact_law(input.scene);
 }
 
-Problem problem_of(const Case& input) {
+Problem problem_of(const Case& given) {
+  Case input = given;
+  input.scene.beam = sized_beam(given);
   Problem problem;
   problem.beam = input.scene.beam;
   problem.striker = input.scene.striker;
   problem.gravity = input.scene.gravity;
   problem.mesh = input.parts.mesh ? input.parts.mesh : descriptor_of(input.model.mesh).make(input);
   if (input.scene.beam.is_sprung()) problem.mesh = on_springs(input, std::move(problem.mesh));
-  problem.contact_law = contact_law_of(input);
+  problem.contact_law = contact_law_of(given);
   problem.contact_damping = input.scene.contact_damping();
   problem.check_contact_law = input.parts.contact_law != nullptr;
   problem.may_yield = may_yield(input);

@@ -22,6 +22,9 @@ struct SectionDescriptor {
 std::span<const SectionDescriptor> sections();
 const SectionDescriptor& descriptor_of(SectionKind kind);
 
+/// The beam that a run has: the case's, where it is a plane so stiff that each sub-impact is a zone
+/// by itself, and with sizes (SI units of 1) in place of those it has not; nothing depends on them.
+Beam sized_beam(const Case& input);
 bool may_yield(const Case& input);
 
 /// Whether the scene is its own mirror image about mid-span, where it is struck.

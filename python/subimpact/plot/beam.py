@@ -55,11 +55,17 @@ def bending(result: Result, axes: Any) -> None:
         panels[-1].figure.text(0, 0, f"not shown: sections {len(panels) + 1} to {n}", color=GREY)
 
 
+def _along_beam(result: Result, table: Any) -> Any:
+    if result["beam.fixed"]:
+        raise Absent("the plane does not move")
+    return present(table, _NO_SHAPES)
+
+
 @figure([[0], [1]], height=5.6, sharex=True)
 def shapes(result: Result, axes: Any) -> None:
     """Displacement and bending moment along the whole beam at some instants of the run, from dark to
     light."""
-    table = present(result.shapes, _NO_SHAPES)
+    table = _along_beam(result, result.shapes)
     rows = table.reshape(-1, result.summary["used"]["n_shape_points"])
     times = rows["time_s"][:, 0]
     wanted = times[-1] * np.arange(1, _N_SHAPES + 1) / _N_SHAPES
@@ -85,7 +91,7 @@ def envelope(result: Result, axes: Any) -> None:
     strain of the outer fibre (cut off at six times first yield) and displacement; of a beam that has
     yielded, in its place the permanent set, its displacement at rest against its supports, of a free one
     against its chord. Shaded: plastic zones."""
-    table = present(result.envelope, _NO_SHAPES)
+    table = _along_beam(result, result.envelope)
     x, zones = table["position_m"], result.summary["rest"]["plastic_zones"]
     limit = result.summary["used"]["yield_curvature_per_m"]
     strain = 1e3 * (result["beam.yield_stress"] or np.nan) / result["beam.youngs_modulus"] if zones else np.nan

@@ -300,19 +300,19 @@ std::vector<CaseKey> with_scatter(std::vector<CaseKey> keys) {
 
 // clang-format off
 std::vector<CaseKey> make_case_keys() {
-  const Range poisson = between("from 0 to 0.5", 0.0, 0.5);
-  const Range fraction = between("from 0 to 1", 0.0, 1.0);
+  const Range poisson = between("from 0 to 0.5", 0.0, 0.5), fraction = between("from 0 to 1", 0.0, 1.0);
   const char* const none = "none; needed by shapes that name it";
+  const auto of_plane = [](const Case& c) { return c.scene.beam.fixed; };
   const Range tolerance = between("from 1e-14 to 0.1", 1e-14, 0.1);
   return {
     row("title", "", any_value, "name of the case", "\"\"", AT(title)),
 
     with_choices(row("beam.material", "", any_value, "gives density, modulus, Poisson's ratio and yield stress, where their keys do not: nominal values, with the source of the yield stress", "none", AT(scene.beam.material)), material_choices()),
-    row("beam.length", "m", positive, "length of the beam", required, AT(scene.beam.length)),
+    unless(of_plane, row("beam.length", "m", positive, "length of the beam", required, AT(scene.beam.length))),
     not_zero(row("beam.width", "m", positive, "width of a rectangular section, across the strike", "none; needed without beam.section", AT(scene.beam.width))),
     not_zero(row("beam.thickness", "m", positive, "thickness of a rectangular section, in the direction of the strike", "none; needed without beam.section", AT(scene.beam.thickness))),
-    row("beam.density", "kg/m3", positive, "density", required, AT(scene.beam.density)),
-    row("beam.youngs_modulus", "Pa", positive, "Young's modulus", required, AT(scene.beam.youngs_modulus)),
+    unless(of_plane, row("beam.density", "kg/m3", positive, "density", required, AT(scene.beam.density))),
+    unless(of_plane, row("beam.youngs_modulus", "Pa", positive, "Young's modulus; a plane without one is rigid", required, AT(scene.beam.youngs_modulus))),
     row("beam.yield_stress", "Pa", positive_or_infinite, "yield stress of beam and contact; inf: neither yields", as_in_case, AT(scene.beam.yield_stress)),
     row("beam.hardening", "", between("from 0 to 0.99", 0.0, 0.99), "linear kinematic hardening: modulus after yield over Young's modulus", as_in_case, AT(scene.beam.hardening)),
     row("beam.theory", "", any_value, "beam theory", by_scene, AT(scene.beam.theory)),
@@ -327,7 +327,7 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.velocity", "m/s", finite, "velocity along the strike at t = 0, of the pivot where the beam turns", as_in_case, AT(scene.beam.velocity)),
     row("beam.angular_velocity", "rad/s", finite, "angular velocity at t = 0, positive where it turns points beyond the pivot along the strike", as_in_case, AT(scene.beam.angular_velocity)),
     row("beam.pivot", "", fraction, "point about which the beam turns, as a fraction of the length", "the pinned end; of other beams 0.5", AT(scene.beam.pivot)),
-    row("beam.fixed", "", any_value, "whether a rigid beam does not move, as a plane or wall (mesh = \"rigid\")", as_in_case, AT(scene.beam.fixed)),
+    row("beam.fixed", "", any_value, "whether a rigid beam does not move: a plane or wall, which needs neither size nor density", as_in_case, AT(scene.beam.fixed)),
     row("beam.damping.ratio", "", between("from 0 to 1", 0.0, 1.0), "damping ratio of all natural modes of a beam that stays elastic", as_in_case, AT(scene.beam.damping.ratio)),
     row("beam.damping.mass", "1/s", not_negative, "alpha of Rayleigh's damping: force over mass and velocity", as_in_case, AT(scene.beam.damping.mass)),
     row("beam.damping.stiffness", "s", not_negative, "beta of Rayleigh's damping: force over elastic stiffness and velocity", as_in_case, AT(scene.beam.damping.stiffness)),

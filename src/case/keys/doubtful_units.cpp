@@ -145,7 +145,7 @@ class Doubts {
   }
 
   void modulus(const char* key, double E) {
-    if (E >= softest && E <= stiffest) return;
+    if (E == 0.0 || (E >= softest && E <= stiffest)) return;  // 0: a rigid plane
     doubt(key,
           E < softest ? ", softer than soft rubber (some 1e6 Pa)"
                       : ", stiffer than diamond (1.2e12 Pa)",
@@ -154,7 +154,7 @@ class Doubts {
 
   void materials() {
     const double rho = beam_.density, E = beam_.youngs_modulus, Y = beam_.yield_stress;
-    if (rho < lightest || (rho > heaviest && !is_rigid_)) {
+    if ((rho > 0.0 && rho < lightest) || (rho > heaviest && !is_rigid_)) {
       doubt("beam.density",
             rho < lightest ? ", lighter than packing foam (some 25 kg/m3)"
                            : ", heavier than osmium (22600 kg/m3)",

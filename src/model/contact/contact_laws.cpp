@@ -21,6 +21,8 @@ using Law = std::shared_ptr<const ContactLaw>;
 constexpr double never = std::numeric_limits<double>::infinity();  // as a yield indentation
 constexpr double rigid = std::numeric_limits<double>::infinity();  // as a modulus
 
+bool is_rigid_plane(const Beam& beam) { return beam.fixed && beam.youngs_modulus == 0.0; }
+
 double need(const std::optional<double>& constant) {
   if (!constant) throw std::invalid_argument("contact law: a constant that it needs is missing");
   return *constant;
@@ -43,9 +45,9 @@ Law make_foundation(const Scene& scene) {
 
 double compliance_of(const Scene& scene) {
   const Contact& contact = scene.contact;
-  return contact_compliance(contact.striker_modulus.value_or(rigid),
-                            contact.striker_poisson.value_or(0.0), scene.beam.youngs_modulus,
-                            need(scene.beam_poisson()));
+  return contact_compliance(
+      contact.striker_modulus.value_or(rigid), contact.striker_poisson.value_or(0.0),
+      is_rigid_plane(scene.beam) ? rigid : scene.beam.youngs_modulus, need(scene.beam_poisson()));
 }
 
 double yield_pressure_of(const Scene& scene) {
@@ -169,8 +171,14 @@ constexpr const char* ellipse =
     "contact.law = \"hertz\" with contact.indentation = \"half-space\", which has the ellipse and "
     "does not yield, or a flat surface";
 
+constexpr const char* rigid_plane =
+    "beam.youngs_modulus is missing: the plane is rigid; allowed on it: \"linear\" or \"hertz\" "
+    "with contact.stiffness, \"curve\", and with contact.striker_modulus and "
+    "contact.striker_poisson \"sphere\" or \"hertz\" with contact.indentation = \"half-space\"";
+
 // Why there is no mid-plane to measure from; empty where there is.
 std::string why_no_mid_plane(const Scene& scene, GapRadii radii) {
+  if (is_rigid_plane(scene.beam)) return rigid_plane;
   if (scene.beam.gap().area() > 0.0) {
     return "the indentation is measured from the mid-plane, and this section is hollow; allowed: "
            "contact.law = \"sphere\" or \"hertz\" with contact.indentation = \"half-space\"";
@@ -179,6 +187,7 @@ std::string why_no_mid_plane(const Scene& scene, GapRadii radii) {
 }
 
 std::string why_no_columns(const Scene& scene, GapRadii /*radii*/) {
+  if (is_rigid_plane(scene.beam)) return rigid_plane;
   if (scene.beam.gap().area() <= 0.0) return {};
   return "columns through the whole height carry the contact, and this section is hollow; allowed: "
          "contact.law = \"sphere\" or \"hertz\", which have their own stiffness";
@@ -193,6 +202,7 @@ std::string why_no_power(const Scene& scene, GapRadii radii) {
 std::string why_no_circle(const Scene& scene, GapRadii radii) {
   if (std::isinf(radii.across)) return line_contact;
   if (scene.contact.is_from_mid_plane()) return why_no_mid_plane(scene, radii);
+  if (is_rigid_plane(scene.beam) && !scene.contact.striker_modulus) return rigid_plane;
   if (scene.contact.pressure_by_depth) {
     return "contact.yield_pressure = \"by-depth\" is for indentations measured from the mid-plane; "
            "allowed: contact.indentation = \"mid-plane\", or a number as "

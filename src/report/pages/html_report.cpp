@@ -253,7 +253,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   };
   Json page = {
       {"title", run.input.title.empty() ? "A strike" : run.input.title},
-      {"beam_kg", fmt::format("{:.4g}", scene.beam.mass())},
+      {"body", scene.beam.fixed ? "plane" : fmt::format("beam of {:.4g} kg", scene.beam.mass())},
       {"meeting", scene.striker.fixed
                       ? std::string("on a stop")
                       : fmt::format("struck by {:.4g} kg at {:.4g} m/s", scene.striker.mass,

@@ -72,7 +72,7 @@ Indices every_nth(std::size_t n, std::size_t most) {
 // Which points of a shape the page has: all, or every n-th and the struck one.
 Indices points_kept(const Case& input, const Result& result) {
   const std::size_t n = result.used.n_shape_points;
-  const double struck = input.scene.striker.position * input.scene.beam.length;
+  const double struck = input.scene.striker.position * sized_beam(input).length;
   const auto nearest = std::min_element(
       result.shapes.begin(), result.shapes.begin() + static_cast<std::ptrdiff_t>(n),
       [&](const ShapeRow& a, const ShapeRow& b) {
@@ -209,7 +209,7 @@ std::string_view name_of(EndSupport end) {
 }  // namespace
 
 PageData page_data(const Case& input, const Result& result, const Json& overlay) {
-  const Beam& beam = input.scene.beam;
+  const Beam beam = sized_beam(input);
   PageData data;
   const std::vector<HistoryRow> history = thinned(result.history, most_history_rows);
   const std::size_t n_rows = std::max(result.n_history_rows, result.history.size());

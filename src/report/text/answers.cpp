@@ -88,16 +88,17 @@ Answer strike(const Case& input, const Result& result) {
                             : x == 0.0 || x == 1.0
                                 ? fmt::format("the {} end", name_of(scene.beam.ends[x == 1.0]))
                                 : fmt::format("{:.4g} of the length", x);
-  const std::string contact = contact_words(input);
-  const std::string reached = duration_text(result.outcome.time);
-  const std::string end = duration_text(input.end_time);
+  const std::string reached = duration_text(result.outcome.time),
+                    end = duration_text(input.end_time);
   const std::string others = others_in_scene(scene);
   return {"strike",
-          fmt::format("{}, at {} of a {} beam of {}{}", striker_words(scene, contact), where,
-                      scene.beam.fixed ? std::string("fixed")
-                                       : fmt::format("{}-{}", name_of(scene.beam.ends[0]),
-                                                     name_of(scene.beam.ends[1])),
-                      mass_text(scene.beam.mass()), others.empty() ? "" : "; " + others),
+          fmt::format(
+              "{}, {}{}", striker_words(scene, contact_words(input)),
+              scene.beam.fixed
+                  ? std::string("on a plane that does not move")
+                  : fmt::format("at {} of a {}-{} beam of {}", where, name_of(scene.beam.ends[0]),
+                                name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
+              others.empty() ? "" : "; " + others),
           fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
                       result.work.all_seconds)};
 }

@@ -178,9 +178,13 @@ std::string line(const char* label, const std::string& value) {
 std::string scene_section(const Case& input, const ResolvedSettings& used) {
   const Scene& scene = input.scene;
   std::string text = "Scene\n";
-  text += line("beam", fmt::format("{:.6g} kg; ends {}; theory {}", scene.beam.mass(),
-                                   key_text(input, "beam.ends"), key_text(input, "beam.theory")));
-  text += line("cross-section", cross_section_text(scene.beam));
+  if (scene.beam.fixed) {
+    text += line("beam", "a plane that does not move");
+  } else {
+    text += line("beam", fmt::format("{:.6g} kg; ends {}; theory {}", scene.beam.mass(),
+                                     key_text(input, "beam.ends"), key_text(input, "beam.theory")));
+    text += line("cross-section", cross_section_text(scene.beam));
+  }
   text +=
       line("striker", (scene.striker.fixed
                            ? fmt::format("a stop; {:.6g} J in the beam", used.initial_energy)
@@ -197,6 +201,7 @@ std::string scene_section(const Case& input, const ResolvedSettings& used) {
                  fmt::format("at {}, after a gap of {:.6g} mm",
                              duration_text(scene.striker.first_touch()), mm * scene.striker.gap));
   }
+  if (scene.beam.fixed) return text;
   text += line("first bending period", duration_text(used.first_period));
   text += line("zones", fmt::format("end after {} of separation, sub-zones after {}",
                                     duration_text(input.output.zone_gap * used.first_period),

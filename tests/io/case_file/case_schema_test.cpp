@@ -180,7 +180,8 @@ TEST(CaseSchema, AcceptsThePapersCaseAndTheSmallOne) {
 }
 
 TEST(CaseSchema, RefusesWhatACaseFileRefuses) {
-  EXPECT_EQ(fault_in(small_case_with("density", "densiti")), "case.beam.density: missing");
+  EXPECT_EQ(fault_in(small_case_with("density", "densiti")), "case.beam.densiti: unknown");
+  EXPECT_EQ(fault_in(small_case_with("end =", "# end =")), "case.time.end: missing");
   EXPECT_EQ(fault_in(small_case_text() + "ende = 1\n"), "case.time.ende: unknown");
   EXPECT_EQ(fault_in(small_case_with("0.7112", "\"0,7112\"")), "case.beam.length: pattern");
   EXPECT_EQ(fault_in(small_case_with("0.7112", "\"711.2 mm\"")), "");
