@@ -410,6 +410,8 @@ class Surroundings(PageTestCase):
             law = "foundation"
             [model]
             elements = 20
+            [output]
+            gauges = [{ position = 0.3 }, { position = 0.5, face = "front" }]
             """)
         cls.program("run", "swing.toml", "--out", "swing", "--quiet", "--error-bars", "off")
         cls.program("report", "swing")
@@ -427,6 +429,18 @@ class Surroundings(PageTestCase):
         labels = self.js("return page.charts.flatMap(({chart}) => chart.getLabels())")
         self.assertIn("stop w_m", labels)
         self.assertNotIn("striker w_m", labels)
+
+    def test_strains_at_gauges_have_a_chart_of_their_own_in_millionths(self):
+        chart = ("const {chart} = page.charts.find(({chart}) => chart.getLabels()[1].startsWith('gauge 1'));"
+                 "const largest = (column) => Math.max(...page.strike.times.map((t, i) => chart.getValue(i, column)));")
+        self.assertEqual(self.js(chart + "return chart.getLabels().slice(1)"),
+                         ["gauge 1: x = 0.3 l, back", "gauge 2: x = 0.5 l, front"])
+        rows = self.program.table("swing", "history.csv")
+        for column in (1, 2):
+            strains = [1e6 * float(row[f"gauge_{column}_strain"]) for row in rows]
+            self.assertGreater(max(strains), 10)
+            self.assertAlmostEqual(self.js(chart + "return largest(arguments[0])", column), max(strains), delta=1e-5 * max(strains))
+        self.assertTrue(self.find("#chart-strain").is_displayed())
 
     def test_the_spring_is_drawn_throughout_and_the_force_while_it_acts(self):
         self.assertGreater(self.pixels(0.5e-3, "soft"), 100)

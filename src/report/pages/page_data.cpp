@@ -26,11 +26,15 @@ constexpr std::size_t most_shape_rows = 240'000;  // of all shapes
 using HistoryColumn = Column<HistoryRow>;
 
 // All columns of the history except the time.
-auto value_columns() { return std::views::drop(run_table<HistoryRow>().columns, 1); }
+Columns<HistoryRow> value_columns(const OutputOptions& output) {
+  Columns<HistoryRow> columns = run_table<HistoryRow>().columns_of(output);
+  columns.erase(columns.begin());
+  return columns;
+}
 
 std::vector<HistoryRow> thinned(const std::vector<HistoryRow>& history, std::size_t most_rows) {
   std::vector<double HistoryRow::*> drawn;
-  for (const HistoryColumn& column : value_columns()) {
+  for (const HistoryColumn& column : value_columns({})) {
     if (column.member != nullptr) drawn.push_back(column.member);
   }
   RowThinning<HistoryRow> rows(history.size(), 1, drawn, most_rows);
@@ -38,11 +42,11 @@ std::vector<HistoryRow> thinned(const std::vector<HistoryRow>& history, std::siz
   return rows.take();
 }
 
-Json history_json(const std::vector<HistoryRow>& rows) {
+Json history_json(const std::vector<HistoryRow>& rows, const OutputOptions& output) {
   Json json = Json::object();
   if (rows.empty()) return json;
   json["time_s"] = packed<double>(rows, &HistoryRow::time);
-  for (const HistoryColumn& column : value_columns()) {
+  for (const HistoryColumn& column : value_columns(output)) {
     json[column.name] = packed<float>(rows, [&](const HistoryRow& row) -> std::optional<double> {
       const Cell cell = column.cell(row, 0);
       const double* value = std::get_if<double>(&cell);
@@ -52,9 +56,9 @@ Json history_json(const std::vector<HistoryRow>& rows) {
   return json;
 }
 
-Json meanings_of_columns() {
+Json meanings_of_columns(const OutputOptions& output) {
   Json json = Json::object();
-  for (const HistoryColumn& column : value_columns()) json[column.name] = column.meaning;
+  for (const HistoryColumn& column : value_columns(output)) json[column.name] = column.meaning;
   return json;
 }
 
@@ -259,8 +263,13 @@ PageData page_data(const Case& input, const Result& result, const Json& overlay)
                  return {{"from", zone.from}, {"to", zone.to}, {"rotation", zone.rotation}};
                })},
       {"overlay", overlay},
-      {"history", history_json(history)},
-      {"meanings", meanings_of_columns()}};
+      {"history", history_json(history, input.output)},
+      {"gauges", list_of(input.output.gauges,
+                         [](const Gauge& gauge) -> Json {
+                           return fmt::format("x = {:.4g} l, {}", gauge.position,
+                                              gauge.face == Face::back ? "back" : "front");
+                         })},
+      {"meanings", meanings_of_columns(input.output)}};
   add_shapes(json, data, input, result);
   data.json = within_script(json);
   return data;
@@ -276,7 +285,8 @@ std::string comparison_data(const std::vector<std::string>& names,
     runs.push_back(
         {{"name", names[i]},
          {"sub_impacts", sub_impacts_json(result)},
-         {"history", history_json(thinned(result.history, most_history_rows / results.size()))}});
+         {"history",
+          history_json(thinned(result.history, most_history_rows / results.size()), {})}});
   }
   return within_script({{"end", end}, {"time_unit", unit_json(end)}, {"runs", runs}});
 }

@@ -79,6 +79,11 @@ class Page {
       this.addChart(id, label, columns.map((column) =>
         ({...column, label: column.label.replace('striker', strike.stop ? 'stop' : 'striker')})));
     }
+    byId('chart-strain').hidden = strike.gauges.length === 0;
+    if (strike.gauges.length > 0) {
+      this.addChart('chart-strain', 'strain, 1e-6', strike.gauges.map((where, i) =>
+        ({name: `gauge_${i + 1}_strain`, label: `gauge ${i + 1}: ${where}`, factor: 1e6})));
+    }
     if (strike.overlay) this.addOverlay();
     const columns = Object.keys(strike.meanings).filter((name) => strike.history[name].some(Number.isFinite));
     const select = byId('column');
