@@ -51,6 +51,7 @@ constexpr PassedOption measured_options[] = {
      "Cut-off of the transducer, with its unit: 20kHz; the computed force is filtered by a "
      "Butterworth low-pass of fourth order. \"find\": the cut-off is found. Default: no filter"},
     {"--gain", "Measured over true force, or \"find\". Default: 1"},
+    {"--gauge", "Of a measured strain: the gauge in output.gauges, from 1. Default: 1"},
     {"--columns", "Columns of time and force in the file, by number or name: 1,3"},
     {"--units", "Units of time and force, where the file states none: us,kN"},
     {"--scale", "What the force is multiplied by"},

@@ -105,6 +105,26 @@ TEST_F(ReportWithMeasurement, StatesShiftAndDifferencesAndShowsBothForces) {
   expect_not_in(directory.read("here/report.html"), "Compared with the measurement");
 }
 
+TEST_F(ReportWithMeasurement, LaysAStrainBesideTheGaugeThatIsNamed) {
+  run_in(directory, paper("run",
+                          {"time.end=4e-4", "model.segments=51", "output.interval=1e-6",
+                           "output.gauges=[{position=0.3},{position=0.5,face=\"front\"}]"},
+                          {"--out", "gauged"}));
+  std::string text = "time (us),strain (um/m)\n";
+  for (const auto& row : read_results(directory.path / "gauged").result.history) {
+    text += fmt::format("{:.4f},{:.6f}\n", 1e6 * row.time + 20.0, 1.02e6 * row.gauge_strains[1]);
+  }
+  directory.write("strain.csv", text);
+  const auto report = [&](const std::string& gauge, int status = 0) {
+    return run_in(directory, {"report", "gauged", "--measured", "strain.csv", "--gauge", gauge},
+                  status);
+  };
+  expect_in(report("2").output, "shift               20.0", "measured: -2 %");
+  expect_in(directory.read("gauged/report.html"), "Measured and computed strain", "data-strain");
+  expect_not_in(report("1").output, "measured: -2 %");
+  expect_in(report("3", 2).errors, "no gauge_3_strain");
+}
+
 TEST_F(ReportWithMeasurement, TakesAGivenShiftAndCutoffAndHowTheFileIsRead) {
   const std::string text = directory.read("force.csv");
   directory.write("bare.csv", text.substr(text.find('\n') + 1));

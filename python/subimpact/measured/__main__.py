@@ -65,6 +65,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--shift", type=_time, help="by how much the measured time is later than that of the run; default: found")
     parser.add_argument("--low-pass", type=_cutoff, help="cut-off of the transducer, such as 20kHz, or find; default: no filter")
     parser.add_argument("--gain", type=_gain, default=1.0, help="measured over true force, or find; default: 1")
+    parser.add_argument("--gauge", type=int, default=1, help="of a measured strain: the gauge in output.gauges; default: 1")
     reading = parser.add_argument_group("how the file is read")
     reading.add_argument("--columns", metavar="T,F", help="columns of time and force, by number or name")
     reading.add_argument("--units", metavar="us,kN", help="units of both; m/s^2, g and volts are allowed")
@@ -82,7 +83,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _write(run: str, directory: str, alignment: Alignment) -> list[str]:
     """Writes what the page shows, and returns what there is to say. Raises OutputError."""
-    page = {"answers": alignment.answers(), "doubt": alignment.doubt, "caption": " ".join((draw_all.__doc__ or "").split()),
+    page = {"quantity": alignment.quantity, "answers": alignment.answers(), "doubt": alignment.doubt, "caption": " ".join((draw_all.__doc__ or "").split()),
             "overlay": [packed(side.times, side.forces) for side in (alignment.measured, alignment.computed)]}
     with closing(_core.OutputDirectory(path_text(directory, OutputError), "figures", 0.0, identity_of(Path(run)))) as output:
         save(draw_all(alignment), Path(output.staging) / "measured", ("svg",))
@@ -95,7 +96,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Exit status: 0 done; 2 bad command line or files; 3 files cannot be written."""
     matplotlib.use("Agg")
     options = vars(_parser().parse_args(arguments))
-    how = {name: options.pop(name) for name in ("shift", "gain", "low_pass")}
+    how = {name: options.pop(name) for name in ("shift", "gain", "low_pass", "gauge")}
     run, measured, out = (options.pop(name) for name in ("run", "measured", "out"))
     try:
         alignment = align(read_results(run), read(measured, **options), **how)

@@ -197,7 +197,11 @@ Measured read_measured(const std::filesystem::path& directory) {
                 found.push_back({answer.at("name"), answer.at("value"), answer.at("note")});
               }
               const std::string doubt = json.at("doubt");
-              measured.section = {{"answers", tiles(found)}, {"doubt", in_print(doubt)}};
+              const bool is_strain = json.at("quantity") == "strain";
+              measured.section = {{"answers", tiles(found)},
+                                  {"doubt", in_print(doubt)},
+                                  {"what", is_strain ? "strain" : "contact force"},
+                                  {"strain", is_strain}};
               measured.figure = {"measured", json.at("caption"),
                                  read_whole_file(directory / "measured.svg")};
               measured.forces = json.at("overlay");

@@ -105,14 +105,16 @@ class Page {
       unit: strike.time_unit, bands: bandsOf(strike.sub_impacts, strike.time_unit), view}));
   }
 
-  // Measured and computed force, each at its own times.
+  // Measured and computed force, or strain, each at its own times.
   addOverlay() {
+    const chart = byId('chart-measured');
+    const [factor, valueLabel] = 'strain' in chart.dataset ? [1e6, 'strain, 1e-6'] : [1, 'force, N'];
     const {overlay, time_unit: unit, sub_impacts: hits} = this.strike;
     const rows = overlay.map(unpackedColumns).flatMap(({time_s: times, force_N: forces}, k) => Array.from(
-      times, (time, i) => [time * unit.per_second, k === 0 ? forces[i] : null, k === 1 ? forces[i] : null]));
-    this.charts.push(new TimeChart(byId('chart-measured'), {
+      times, (time, i) => [time * unit.per_second, k === 0 ? factor * forces[i] : null, k === 1 ? factor * forces[i] : null]));
+    this.charts.push(new TimeChart(chart, {
       rows: rows.sort((a, b) => a[0] - b[0]), labels: ['measured', 'computed, as the transducer shows it'],
-      valueLabel: 'force, N', unit, bands: bandsOf(hits, unit), view: this.view}));
+      valueLabel, unit, bands: bandsOf(hits, unit), view: this.view}));
   }
 
   // Canvases out of sight are not painted while the picture moves.
