@@ -123,7 +123,9 @@ int report_sweep(const FinishedRunOptions& options) {
   const SweptRuns runs = read_sweep(sweep);
   OutputDirectory directory(options.directory_or_first_run(),
                             runs.identity.empty() ? "report" : "figures", runs.identity);
-  return write_page(directory, "sweep.html", sweep_report(runs, sweep));
+  const fs::path base = fs::path(sweep) / "base.toml";  // sweeps by earlier programs have none
+  return write_page(directory, "sweep.html",
+                    sweep_report(runs, sweep, fs::exists(base) ? base.string() : "CASE.toml"));
 }
 
 int report_any(FinishedRunOptions& options) {

@@ -86,8 +86,16 @@ class SweepPage(PageTestCase):
             expected = self.js("return page.map.shade.rgb(arguments[0])", n) if run != 7 else None
             if expected:
                 self.assertLess(max(abs(a - b) for a, b in zip(found, expected)), 6, f"run {run}: {found} {expected}")
-        low, high = self.js("return [page.map.shade.rgb(page.map.shade.low), page.map.shade.rgb(page.map.shade.high)]")
-        self.assertGreater(sum(abs(a - b) for a, b in zip(low, high)), 250)
+        counts = self.js("return page.map.shade.column.different")
+        tones = self.js("return page.map.shade.column.different.map((n) => page.map.shade.rgb(n))")
+        for i, tone in enumerate(tones):
+            for n, other in zip(counts[:i], tones):
+                self.assertGreater(sum(abs(a - b) for a, b in zip(tone, other)), 60, f"{counts[i]} and {n}")
+        colours = self.js(COPY + """
+            const {data} = copied(document.getElementById('scale')).getImageData(0, 0, 4000, 200);
+            return Array.from(new Set(new Uint32Array(data.buffer)), (c) => [c & 255, (c >> 8) & 255, (c >> 16) & 255]);""")
+        for n, tone in zip(counts, tones):
+            self.assertIn(tone, colours, f"no sample of {n} in the key")
 
     def test_counts_that_are_not_decided_have_a_cross(self):
         for run, (_, _, _, n, certain) in enumerate(self.runs):
@@ -118,6 +126,7 @@ class SweepPage(PageTestCase):
             self.assertEqual("uncertain" in row.get_attribute("class"), i >= certain)
         self.assertGreater(self.js(COUNT, self.find("#timeline"), "line1"), 10)
         command = self.js("return document.getElementById('command').textContent")
+        self.assertTrue(command.startswith(f"subimpact run CASE.toml --out run-{run} "), command)  # there is no base.toml
         self.assertIn(f"--set striker.mass={mass:g}", command)
         self.assertIn("--set 'solver.method=" + method.replace("'", "'\\''") + "'", command)
 

@@ -194,6 +194,9 @@ def test_rows_are_those_of_single_runs(population, tmp_path):
         assert float(row["max_force_N"]) == result.summary["maxima"]["force_N"]
         assert float(row["first_separation_s"]) == result.sub_impacts["end_s"][0]
     assert len(sweep.runs) == 40 and sweep.n_missing == 0
+    base = si.Case.from_file(tmp_path / "base.toml")
+    again = si.run(base.changed(dict(population.settings(39))), error_bars="off")
+    assert again.sub_impacts["end_s"].tolist() == result.sub_impacts["end_s"].tolist()
 
 
 def test_hdf5_has_the_numbers_of_the_tables(population, tmp_path):

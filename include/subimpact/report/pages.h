@@ -47,7 +47,8 @@ std::string comparison_report(const std::vector<FinishedRun>& runs,
 
 /// A sweep as a page: a map of its runs over two of their keys, which marks runs with uncertain
 /// counts, and the numbers and sub-impacts of the run that is chosen on the map. `name`: that of
-/// the sweep, for example a directory.
-std::string sweep_report(const SweptRuns& runs, const std::string& name);
+/// the sweep, for example a directory; `case_file`: the case that its keys change, in commands.
+std::string sweep_report(const SweptRuns& runs, const std::string& name,
+                         const std::string& case_file);
 
 }  // namespace subimpact

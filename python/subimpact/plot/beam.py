@@ -8,7 +8,7 @@ import matplotlib
 import numpy as np
 
 from ..result import Result
-from .style import COLOURS, GREY, figure, grid_of, legend_above, present, unit
+from .style import COLOURS, GREY, Absent, figure, grid_of, legend_above, present, unit
 
 _MOST_SECTIONS = 24
 _N_SHAPES = 7

@@ -64,9 +64,9 @@ class Plan:
         self.axes = {tuple(keys): values for keys, values in self._points}
         self._drawn = self._what_is_drawn()
         self._population.check(self.case._load())
-        #: of the samples
-        self._base = self.case if self.samples is None else _without_scatter(self.case)
-        self._base = self._base.changed(self._chosen())
+        #: the case that the settings of each run change, with the model that is chosen once for all
+        self.base = self.case if self.samples is None else _without_scatter(self.case)
+        self.base = self.base.changed(self._chosen())
 
     def _chosen(self) -> dict[str, Any]:
         """The model that the base case's scene needs, so that it is the same in all cases. Where the
@@ -165,7 +165,7 @@ class Plan:
 
     def case_of(self, number: int) -> Case:
         """A case of the plan, by its number from 0."""
-        return self._base.changed(dict(self.settings(number)))
+        return self.base.changed(dict(self.settings(number)))
 
     @property
     def how(self) -> str:

@@ -35,7 +35,7 @@ class Sweep:
         self, plan: Plan, directory: Path, outcomes: Mapping[str, int], notes: list[str]
     ) -> None:
         self.plan = plan
-        self.directory = directory  #: of sweep.sqlite, runs.csv and sub_impacts.csv
+        self.directory = directory  #: of sweep.sqlite, runs.csv, sub_impacts.csv and base.toml, the case that the keys change
         self.outcomes = dict(outcomes)  #: how many cases have each outcome
         self.n_missing = len(plan) - sum(outcomes.values())  #: cases that have no row yet
         self.notes = notes  #: messages for the user

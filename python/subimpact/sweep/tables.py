@@ -18,16 +18,19 @@ from .worker import COLUMNS, cell, events_heading
 
 RUNS = "runs.csv"
 SUB_IMPACTS = "sub_impacts.csv"
+CASE = "base.toml"
 HDF5 = "sweep.h5"
 _MANIFEST = "manifest.json"
 
 
 def write_tables(plan: Plan, identities: Mapping[int, str], store: Store) -> Counter[str]:
     """Writes runs.csv and sub_impacts.csv, both as one, from the rows there are, which have the
-    identities of the plan's cases; returns how many rows have each outcome. Raises OutputError."""
+    identities of the plan's cases, and base.toml, the case that its keys change; returns how many rows have each outcome. Raises OutputError."""
     try:
         with _new(store.staging / RUNS) as runs, _new(store.staging / SUB_IMPACTS) as sub_impacts:
             outcomes = _write_rows(plan, identities, store, runs, sub_impacts)
+        with _new(store.staging / CASE) as base:
+            base.write(plan.base.to_toml())
     except OSError as error:
         raise _not_written(store.directory, error) from None
     store.commit()

@@ -343,7 +343,7 @@ std::vector<CaseKey> make_case_keys() {
     unless([](const Case& c) { return c.scene.striker.fixed; }, row("striker.mass", "kg", positive, "mass of the striker", required, AT(scene.striker.mass))),
     row("striker.nose_radius", "m", positive, "radius of the nose", "none; \"foundation\", \"sphere\" and \"line\" need one", AT(scene.striker.nose_radius)),
     row("striker.nose", "", any_value, "shape of the nose", "foundation, line: \"cylinder\"; others: \"sphere\"", AT(scene.striker.nose)),
-    unless([](const Case& c) { return c.scene.striker.fixed || c.scene.striker.drop_height; }, row("striker.velocity", "m/s", not_negative, "velocity at t = 0, without loads that at the first touch", required, AT(scene.striker.velocity))),
+    unless([](const Case& c) { return c.scene.striker.fixed || c.scene.striker.drop_height; }, row("striker.velocity", "m/s", not_negative, "velocity at t = 0; without loads also that of the first touch", required, AT(scene.striker.velocity))),
     row("striker.drop_height", "m", positive, "height of a fall from rest that ends at the first touch, in place of velocity: v = sqrt(2 g h) with the size of scene.gravity, or 9.80665 m/s2", "none", AT(scene.striker.drop_height)),
     row("striker.fixed", "", any_value, "whether a rigid stop takes the striker's place: no mass, no velocity", as_in_case, AT(scene.striker.fixed)),
     row("striker.gap", "m", not_negative, "distance of the nose from the beam at t = 0", as_in_case, AT(scene.striker.gap)),

@@ -182,9 +182,11 @@ Json tiles(const SweptRuns& runs) {
 
 }  // namespace
 
-std::string sweep_report(const SweptRuns& runs, const std::string& name) {
+std::string sweep_report(const SweptRuns& runs, const std::string& name,
+                         const std::string& case_file) {
   std::size_t n_left_out = 0;
   const Json data = {{"numbers", runs.numbers},
+                     {"case_file", case_file},
                      {"columns", list_of(runs.columns, column_json)},
                      {"sub_impacts", sub_impacts_json(runs, n_left_out)}};
   const std::string note = fmt::format(

@@ -23,7 +23,7 @@ class RunPanel {
       row.append(...cellsOf([column.label, column.text(run)]));
       return row;
     }));
-    byId('command').textContent = ['subimpact run CASE.toml --out DIR',
+    byId('command').textContent = [`subimpact run ${RunPanel.quoted(this.runs.caseFile)} --out run-${this.runs.numbers[run]}`,
       ...this.runs.keys.map((key) => `--set ${RunPanel.quoted(`${key.name}=${this.setting(key, run)}`)}`)].join(' \\\n  ');
     this.showSubImpacts(run);
   }
@@ -35,7 +35,7 @@ class RunPanel {
   }
 
   static quoted(text) {
-    return /^[\w.,=+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+    return /^[\w.,=+/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
   }
 
   showSubImpacts(run) {

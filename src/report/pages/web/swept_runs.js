@@ -27,8 +27,8 @@ class SweepColumn {
 }
 
 class SweptRuns {
-  constructor({numbers, columns, sub_impacts: subImpacts}) {
-    this.numbers = numbers;
+  constructor({numbers, case_file: caseFile, columns, sub_impacts: subImpacts}) {
+    Object.assign(this, {numbers, caseFile});
     this.columns = columns.map((column) => new SweepColumn(column));
     this.keys = this.columns.filter((column) => column.isKey);
     this.readSubImpacts(subImpacts);
