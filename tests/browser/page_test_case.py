@@ -1,5 +1,7 @@
 """What the tests of pages share: a page in a browser, its keys, charts and pixels."""
 
+import base64
+import re
 import sys
 import unittest
 
@@ -87,6 +89,10 @@ class PageTestCase(unittest.TestCase):
 
     def find(self, css):
         return self.driver.find_element("css selector", css)
+
+    def n_printed_pages(self):
+        pdf = base64.b64decode(self.driver.execute_cdp_cmd("Page.printToPDF", {})["data"])
+        return len(re.findall(rb"/Type\s*/Page\b", pdf))
 
     def press(self, *keys):
         browser.ActionChains(self.driver).send_keys("".join(KEYS.get(key, key) for key in keys)).perform()

@@ -239,11 +239,15 @@ class ReportPage(PageTestCase):
         self.assertEqual(self.js("return getComputedStyle(document.getElementById('stills')).display"), "none")
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
         try:
-            self.assertEqual(self.js("return getComputedStyle(document.getElementById('stills')).display"), "block")
+            self.assertEqual(self.js("return getComputedStyle(document.getElementById('stills')).display"), "grid")
             self.assertEqual(self.js("return getComputedStyle(document.getElementById('strike')).display"), "none")
-            self.assertGreaterEqual(self.js("return document.querySelectorAll('figure.still svg').length"), 7)
+            n_figures = self.js("return document.querySelectorAll('figure.still svg').length")
+            self.assertGreaterEqual(n_figures, 7)
         finally:
             self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        n_pages = self.n_printed_pages()
+        print(f"{len(self.program.table('strike', 'events.csv'))} sub-impacts, {n_figures} figures: {n_pages} pages")
+        self.assertLessEqual(n_pages, 4)
 
     def test_the_case_to_copy_repeats_the_run(self):
         (self.program.directory / "copied.toml").write_text(self.js("return document.getElementById('toml').textContent"),
@@ -441,6 +445,9 @@ class Surroundings(PageTestCase):
             self.assertGreater(max(strains), 10)
             self.assertAlmostEqual(self.js(chart + "return largest(arguments[0])", column), max(strains), delta=1e-5 * max(strains))
         self.assertTrue(self.find("#chart-strain").is_displayed())
+
+    def test_it_prints_on_two_pages(self):
+        self.assertEqual(self.n_printed_pages(), 2)
 
     def test_the_spring_is_drawn_throughout_and_the_force_while_it_acts(self):
         self.assertGreater(self.pixels(0.5e-3, "soft"), 100)
