@@ -4,6 +4,7 @@ The strike: 400 samples 2 us apart from -100 us on, a half sine of 1200 N over 4
 """
 
 import math
+import re
 from dataclasses import dataclass, field
 
 N, STEP, BEGIN, PEAK = 400, 2e-6, -1e-4, 1200.0
@@ -116,6 +117,22 @@ def repeated_times():
     return "t [us]\tF [N]\n" + "".join(lines)
 
 
+def with_overrange():
+    """Cells that instruments write where they know no number."""
+    lines = rows(1e3, 1, ",").splitlines()
+    for i, cell in ((110, "9.9E+37"), (120, "1.#QNAN"), (130, "-1.#IND"), (140, "1.#INF"), (150, "nan(ind)")):
+        lines[i] = lines[i].split(",")[0] + "," + cell
+    return "time_ms,force_N\n" + "\n".join(lines) + "\n"
+
+
+def clock(form, mark=".", before="", after=""):
+    """Times of day, from 12:03:04.1234 on."""
+    def cell(t):
+        seconds = f"{4.1235 + t:09.6f}".replace(".", mark)
+        return form.format(f"12:03:{seconds}")
+    return "".join(f"{cell(t)};{f:.4f}\n".replace(".", mark if mark == "," else ".") for t, f in zip(TIMES, FORCES))
+
+
 def acceleration(unit, factor):
     """Of the striker, which slows down."""
     return f"Time [ms];Acceleration [{unit}]\n" + rows(1e3, -1.0 / MASS * factor, ";")
@@ -153,6 +170,18 @@ def all_files():
     yield File("blanks-comma.dat", ("Time (us)  Force (N)\n" + rows(1e6, 1, "  ", comma=True)).encode())
     yield File("scientific.tsv", ("time [s]\tF [N]\n" + rows(1, 1, "\t", time_format="{:.6e}", force_format="{:.3e}")).encode())
     yield File("gaps.csv", with_gaps().encode(), n=N - 5)
+    yield File("overrange.csv", with_overrange().encode(), n=N - 5)
+    noon = 12 * 3600 + 3 * 60 + 4.1235 + BEGIN
+    yield File("clock.csv", ("Time;Force [N]\n" + clock("{}")).encode(), begin=noon)
+    yield File("clock-date.csv", ("Timestamp;Force [N]\n" + clock("2024-03-12T{}Z")).encode(), begin=noon)
+    yield File("clock-german.csv", ("Uhrzeit;Kraft [N]\n" + clock("{}", ",")).encode("cp1252"), begin=noon)
+    yield File("dekanewton.csv", ("Time;Force;Temp\nµs;daN;°C\n" + rows(1e6, 0.1, ";", after=";21.5")).encode("cp1252"))
+    yield File("swiss.csv", ("Zeit (us);Kraft (N)\n" + re.sub(r"(\d)(\d{3}\.)", r"\1'\2", rows(1e6, 1, ";"))).encode())
+    yield File("minus.csv", ("Zeit (us);Kraft (N)\n" + rows(1e6, 1, ";").replace("-", "\u2212")).encode())
+    backwards = "\n".join(reversed(rows(1e6, 1, ";").splitlines()))
+    yield File("backwards.csv", ("Zeit (us);Kraft (N)\n" + backwards + "\n").encode())
+    yield File("factor.csv", ("Yunit,N\nYmult,0.5\nTime (s),CH1\n" + rows(1, 2, time_format="{:.6f}")).encode(), {"scale": 0.5}, "scale=0.5")
+    yield File("sensitivity-unit.csv", ("Sensitivity [mV/N]: 2.27\nTime (s),CH1 (V)\n" + rows(1, 2.27e-3, time_format="{:.6f}", force_format="{:.8f}")).encode())
     yield File("repeated.tsv", repeated_times().encode(), n=N // 2, accuracy=0.02)
     yield File("negative.csv", ("time_us,force_N\n" + rows(1e6, -1)).encode(), {"sign": -1}, "sign=-1")
     yield File("no-unit.csv", ("time,force\n" + rows(1e3, 1e-3, force_format="{:.6f}")).encode(), {"units": ("ms", "kN")}, "units=")

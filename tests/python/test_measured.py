@@ -84,6 +84,12 @@ REFUSED = {
     "in coulombs at volts": ("time_us,Q [pC]\n# sensitivity: 2 mV/N\n" + rows(1e6, 1), "sensitivity="),
     "of a program": ("PK\3\4\0\0\0\0", "export it as CSV"),
     "with a broken number at once": ("time_us,force_N\n" + rows(1e6, 1).replace("0.0000,0.0", "0.0000,x0.0", 1), '"x0.0'),
+    "with a factor beside the unit": ("Time [s] x 1e-3;Force [N] x 1000\n" + rows(1e3, 1e-3, ";"), "units="),
+    "with two units in a heading": ("Time [s] (ms);Force [N]\n" + rows(1e3, 1, ";"), "units="),
+    "of whole numbers with thousands": ("t [us];F [N]\n" + "".join(f"{i};{900 + i:,d}\n".replace(",", ".") for i in range(300)), "decimal="),
+    "whose rate is not that of its times": ("# Sample rate: 500 kHz\nTime (s);Force (N)\n" + rows(1e6, 1, ";"), "units="),
+    "with a mark within a number": ("time_us,force_N\n" + rows(1e6, 1).replace("-90.0000,0.0", "-90.0000,12#3"), '"12#3'),
+    "with every tenth sample": ("# Sample rate: 1 MHz\n# Decimation: 10\nForce (N)\n" + "1.0\n" * 9, "interval="),
     "of words": ("no numbers at all\n", "no rows of numbers"),
 }
 
@@ -192,6 +198,36 @@ def test_neighbours_that_resemble_each_other_widen_the_error(strike):
     alike = measured.Signal(white.times, signal_of(strike).forces
                             + 0.01 * white.forces.max() * np.convolve(noise, np.ones(25) / 5, "valid"))
     assert measured.align(strike, alike).shift_error > 1.5 * measured.align(strike, white).shift_error
+
+
+def test_an_option_against_the_file_is_said(tmp_path):
+    (tmp_path / "kN.csv").write_text("time_us,force_kN\n" + rows(1e6, 1e-3))
+    assert any("the file says kN" in words for words in measured.read(tmp_path / "kN.csv", units="N").assumed)
+    (tmp_path / "V.csv").write_text("# Sensitivity: 2.27 mV/N\ntime_us,U (mV)\n" + rows(1e6, 2.27))
+    assert any("the file says 2.27 mV/N" in words for words in measured.read(tmp_path / "V.csv", sensitivity="3 mV/N").assumed)
+
+
+@pytest.mark.parametrize("times, forces, quantity, words", [
+    ([0, 1, 2], [0, 1], "force", "as many"), ([0, 2, 1], [0, 1, 0], "force", "increase"), ([0, 1, 2], [0, np.nan, 0], "force", "finite"),
+    ([0, 1, 2], [0, 1, 0], "Strain", "allowed"), ([0, 1], [0, 1], "force", "3 or more")])
+def test_what_is_no_signal_is_refused(times, forces, quantity, words):
+    with pytest.raises(si.ResultsError, match=words):
+        measured.Signal(times, forces, quantity=quantity)
+
+
+def test_a_force_in_another_unit_is_doubted(strike):
+    signal = signal_of(strike)
+    assert measured.align(strike, signal, low_pass="20kHz").low_pass == pytest.approx(20e3)
+    assert not measured.align(strike, signal).doubt
+    assert "1e-03 times" in measured.align(strike, measured.Signal(signal.times, 1e-3 * signal.forces)).doubt.replace("0.001", "1e-03")
+    for low_pass in (-1.0, "20 mm"):
+        with pytest.raises(si.ResultsError, match="low_pass"):
+            measured.align(strike, signal, low_pass=low_pass)
+
+
+def test_bounds_of_keys_that_are_not_fitted_are_refused(elastic, strike):
+    with pytest.raises(si.CaseError, match="'striker.mas'"):
+        measured.fit(elastic, signal_of(strike), "striker.velocity", bounds={"striker.mas": (8, 20)})
 
 
 def test_what_cannot_be_laid_beside_each_other_is_refused_or_doubted(strike):

@@ -69,7 +69,7 @@ def _parser() -> argparse.ArgumentParser:
     reading = parser.add_argument_group("how the file is read")
     reading.add_argument("--columns", metavar="T,F", help="columns of time and force, by number or name")
     reading.add_argument("--units", metavar="us,kN", help="units of both; m/s^2, g and volts are allowed")
-    reading.add_argument("--scale", type=_factor, default=1.0, help="the force is multiplied by this")
+    reading.add_argument("--scale", type=_factor, help="the force is multiplied by this")
     reading.add_argument("--sign", type=int, choices=(1, -1), help="-1: the file has compression negative")
     reading.add_argument("--sensitivity", metavar='"2.27 mV/N"', help="of a transducer in volts or coulombs")
     reading.add_argument("--mass", metavar='"201 g"', help="of the body whose acceleration was measured")

@@ -12,6 +12,7 @@ import numpy as np
 from .._errors import ResultsError
 from ..result import Result
 from .reading import Signal
+from .units import value_in
 from .words import answers_of
 
 if TYPE_CHECKING:
@@ -173,6 +174,10 @@ class Alignment:
         if self.correlation < _LIKE_EACH_OTHER:
             return (f"the two {self.quantity}s have a correlation of {self.correlation:.2f}, and two of the same strike more than "
                     f"{_LIKE_EACH_OTHER}: the case is not that of the measurement, or the shift or the filter is wrong")
+        ratio = abs(self.measured.peak / self.computed.peak) if self.computed.peak else 1.0
+        if not 0.125 < ratio < 8.0:
+            return (f"the measured {self.quantity} is {ratio:.3g} times the computed one: its unit, gain or sensitivity is likely "
+                    "another one")
         if self.at_bound:
             return ("the cut-off found is at an end of the searched range: the measurement shows no low-pass filter of fourth "
                     "order between two periods in the record and half of the sampling rate")
@@ -294,6 +299,10 @@ def align(result: Result, signal: Signal, shift: float | None = None, gain: floa
 
     Raises ResultsError if there is no common time, the run has no history, no force or no such gauge.
     """
+    if isinstance(low_pass, str) and low_pass != "find":
+        low_pass = value_in("frequency", low_pass) or 0.0
+    if low_pass is not None and low_pass != "find" and not 0.0 < float(low_pass) < np.inf:
+        raise ResultsError("low_pass is no frequency; allowed: Hz above 0, \"20kHz\", or \"find\"")
     raw = curve_of(result, column=column_of(signal, gauge))
     if signal.quantity == "force":
         _check_pushes(raw.forces, "computed", "a run without contact has no force to compare with a measurement")

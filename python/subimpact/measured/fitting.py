@@ -116,6 +116,8 @@ class _Runs:
 
 def _limits(runs: _Runs, bounds: Mapping[str, tuple[float, float]] | None) -> tuple[Numbers, Numbers]:
     """Of what the fit changes: the range of each key, or what is given."""
+    if strange := sorted(set(bounds or {}) - set(runs.start)):
+        raise CaseError(f"bounds has {', '.join(map(repr, strange))}; allowed: the keys of the fit, {', '.join(runs.start)}")
     lower, upper = [], []
     for key, value in runs.start.items():
         known = all_keys()[key]

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 Column = Union[int, str]
 _MOST_BYTES = 4_000_000_000
+_OVERRANGE = 9.89e37  # SCPI: 9.9e37 is infinite, 9.91e37 not a number
 _TIME = re.compile(r"t\b|time|zeit|x_?value", re.IGNORECASE)
 _FORCE = re.compile(r"f\b|force|kraft|load|last\b|strain|dehnung", re.IGNORECASE)
 _INCREMENTS = ("increment", "deltax", "deltat", "dt", "tinc", "xinc", "sampleinterval", "samplinginterval", "timeinterval",
@@ -29,15 +30,37 @@ _STARTS = ("start", "starttime", "x0", "t0", "hoffset", "xzero", "firstsample")
 _MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237}
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Signal:
-    """A measured contact force, positive where it pushes, or the strain of a gauge, positive in tension."""
+    """A measured contact force, positive where it pushes, or the strain of a gauge, positive in tension.
 
-    times: npt.NDArray[np.float64]  #: s, increasing
-    forces: npt.NDArray[np.float64]  #: N; of a gauge the strains, m/m
+    times     (n,), s, increasing, 3 or more
+    forces    (n,), N; of a gauge the strains, m/m
+    source    where it comes from, in messages
+    assumed   how a file was read, in words
+    quantity  "force" or "strain"
+
+    Raises ResultsError for anything else.
+    """
+
+    times: npt.NDArray[np.float64]
+    forces: npt.NDArray[np.float64]
     source: str = "signal"
-    assumed: tuple[str, ...] = ()  #: how the file was read, in words
-    quantity: str = "force"  #: or "strain"
+    assumed: tuple[str, ...] = ()
+    quantity: str = "force"
+
+    def __post_init__(self) -> None:
+        for name in ("times", "forces"):
+            object.__setattr__(self, name, np.ascontiguousarray(getattr(self, name), dtype=float))
+        t, f = self.times, self.forces
+        faults = {
+            f"quantity is {self.quantity!r}; allowed: \"force\", \"strain\"": self.quantity not in ("force", "strain"),
+            f"times and forces have the shapes {t.shape} and {f.shape}; allowed: as many of each, 3 or more":
+                t.ndim != 1 or t.shape != f.shape or len(t) < 3,
+            "times or forces are not all finite; leave out what is not": not (np.isfinite(t).all() and np.isfinite(f).all()),
+            "times do not increase; sort them, and leave out what comes twice": t.ndim == 1 and not (np.diff(t) > 0.0).all()}
+        for words in (words for words, is_fault in faults.items() if is_fault):
+            raise ResultsError(f"{self.source}: {words}")
 
     @property
     def interval(self) -> float:
@@ -47,7 +70,7 @@ class Signal:
     def __repr__(self) -> str:
         return (f"<Signal of {self.source}: {len(self.times)} samples {1e6 * self.interval:.6g} us apart, "
                 f"{self.forces.min():.6g} to {self.forces.max():.6g} {'N' if self.quantity == 'force' else 'm/m'}; "
-                f"{'; '.join(self.assumed)}>")
+                f"{'; '.join(self.assumed) or 'as given'}>")
 
 
 def _listed(value: Column | Sequence[Column] | None) -> list[Column]:
@@ -62,6 +85,7 @@ class _Reading:
 
     def __init__(self, table: Table, columns: list[Column], units: list[Column], has_times: bool, is_electrical: bool) -> None:
         self.table = table
+        self.overruled: list[str] = []  #: what options say against the file
         self.is_electrical = is_electrical
         self.time: int | None = None
         given = [self._index(column) for column in columns]
@@ -93,7 +117,7 @@ class _Reading:
         return ", ".join(map(self._label, columns))
 
     def _index(self, column: Column) -> int:
-        names = [name.casefold() for name in self.table.names]
+        names = [re.sub(r"^/'.*?'/'(.*)'$", r"\1", name).casefold() for name in self.table.names]  # of TDMS
         bare = [re.sub(r"\s*[\[({].*|[_ ]\w+$", "", name) for name in names]
         for options in (names, bare):
             if isinstance(column, str) and options.count(column.casefold()) == 1:
@@ -157,6 +181,8 @@ class _Reading:
         if column is None:
             return None
         if unit := self._given_unit(given) if given is not None else self.table.units[column]:
+            if (own := self.table.units[column]) and own != unit:
+                self.overruled.append(f"{unit.symbol} as given, where the file says {own.symbol} in {self._label(column)}")
             if what == "time" and unit.kind != "time":
                 self.table.fail(self.table.heading or None, f"{self._label(column)} is in {unit.symbol}, no unit of time; give "
                                 "columns=T,F, the numbers of that of the time and that of the force, and units=us,N in this order")
@@ -165,7 +191,7 @@ class _Reading:
                 ("verticalunits", "vunit", "yunit", "yunitlabel", "forceunit", "unit"))
         if (text := self._metadata(keys, column if what == "force" else None)) and (unit := unit_of(text)):
             return unit
-        if what == "time" and self.table.maker:
+        if what == "time" and (self.table.maker or self.table.has_clock):
             return unit_of("s")
         if what == "force" and self.table.maker == "LECROY" and self.is_electrical:
             return unit_of("V")
@@ -173,22 +199,41 @@ class _Reading:
         self.table.fail(self.table.heading or None, f"{said}, in {self._label(column)}; give units=us,N, those of "
                         "time and force, or write them into the heading: time_us,force_N")
 
-    def times(self, n: int, interval: str | None) -> tuple[npt.NDArray[np.float64], str]:
+    def times(self, n: int, interval: str | float | None) -> tuple[npt.NDArray[np.float64], str]:
         """Times by start and increment, and how they are known."""
         if interval is not None:
-            step = value_in("time", str(interval))
+            step = value_in("time", interval) if isinstance(interval, str) else interval
             if step is None or not step > 0.0:
                 raise ResultsError(f"interval is {interval!r}; allowed: a time above 0 with its unit, such as interval=1us")
             return step * np.arange(n), "interval as given"
-        step = self._seconds(_INCREMENTS)
-        if step is None and (rate := self._metadata(_RATES)):
-            hertz = value_in("frequency", rate)
-            step = 1.0 / hertz if hertz else None
+        step = self.stated_interval()
+        if parts := quantity(self._metadata(("decimation", "decimationfactor", "downsampling")) or ""):
+            step = step if parts[0] == 1.0 else None
         if step is None or not step > 0.0:
             self.table.fail(self.table.heading or None, "has no column of times and states no interval between samples with its "
-                            "unit; give interval=1us, or columns=T,F, the numbers of that of the time and that of the force")
+                            "unit, or a decimation; give interval=1us, or columns=T,F, the numbers of that of the time and that of the force")
         start = self._seconds(_STARTS) or 0.0
         return start + step * np.arange(n), f"samples {1e6 * step:.6g} us apart from {1e6 * start:.6g} us on, by the metadata"
+
+    def stated_interval(self) -> float | None:
+        """The seconds between samples by the metadata."""
+        step = self._seconds(_INCREMENTS)
+        hertz = value_in("frequency", self._metadata(_RATES) or "") if step is None else None
+        return 1.0 / hertz if hertz else step
+
+    def check_interval(self, times: npt.NDArray[np.float64]) -> None:
+        """Refuses times that the metadata contradict."""
+        step, found = self.stated_interval(), float(np.nanmedian(np.abs(np.diff(times))))
+        if step and found and not 0.4 < found / step < 2.5:
+            self.table.fail(self.table.heading or None, f"has times {found:.3g} s apart and states {step:.3g} s between samples; give "
+                            "units=us,N, if the times have another unit, or interval=1us")
+
+    def check_factor(self) -> None:
+        """Refuses a factor of the numbers in the metadata, of which instruments are not of one mind."""
+        parts = quantity(self._metadata(("ymult", "ymultiplier", "yfactor", "scalefactor", "multiplier"), self.force) or "")
+        if parts and parts[0] != 1.0:
+            self.table.fail(self.table.heading or None, f"states a factor of {parts[0]:g}; give scale={parts[0]:g} if its numbers are to "
+                            "be multiplied by it, or scale=1 if they are not")
 
     def _seconds(self, keys: tuple[str, ...]) -> float | None:
         parts = quantity(text) if (text := self._metadata(keys)) else None
@@ -206,8 +251,11 @@ class _Reading:
         assert unit is not None
         factor, kind, words = unit.factor, unit.kind, f"{self.quantity}: {where}, {unit.symbol}"
         if kind in ("voltage", "charge"):
-            text = sensitivity or self._metadata(("sensitivity", "empfindlichkeit"), self.force)
+            own = self._metadata(("sensitivity", "empfindlichkeit"), self.force)
+            text = sensitivity or own
             known: Sensitivity | None = sensitivity_of(str(text)) if text else None
+            if sensitivity and own and sensitivity_of(own) not in (None, known):
+                self.overruled.append(f"{sensitivity} as given, where the file says {own}")
             if known is None or known.electrical != kind:
                 said = f"sensitivity is {text!r}, and {where}" if sensitivity else where
                 table.fail(table.heading or None, f"{said} is in {unit.symbol}; give sensitivity=\"2.27 mV/N\", what the transducer "
@@ -232,11 +280,11 @@ def read(
     *,
     columns: Column | Sequence[Column] | None = None,
     units: str | Sequence[str] | None = None,
-    scale: float = 1.0,
+    scale: float | None = None,
     sign: int | None = None,
     sensitivity: str | None = None,
     mass: float | str | None = None,
-    interval: str | None = None,
+    interval: str | float | None = None,
     skip: int = 0,
     rows: int | None = None,
     separator: str | None = None,
@@ -253,12 +301,12 @@ def read(
     sign         -1 where the file has compression negative, 1 where it is as it should be
     sensitivity  of a transducer in volts or coulombs: "2.27 mV/N", "10 mV/g"
     mass         of the body whose acceleration was measured: kg, or "201 g"
-    interval     between samples, in place of a column of times: "1us"
+    interval     between samples, in place of a column of times: s, or "1us"
     skip, rows   how many lines not to read at the top, and how many of the table to read
     separator    of cells: "," or ";" or "\\t", " " for blanks
     decimal      "." or ","
 
-    Cells that are empty, NaN or infinite are left out; samples of one time are averaged.
+    Cells that are empty, NaN, infinite or overrange (9.9e37) are left out; samples of one time are averaged.
     """
     file = one_line(os.fsdecode(path))
     if sign not in (None, 1, -1):
@@ -272,16 +320,20 @@ def read(
     reading = _Reading(table, _listed(columns), _listed(units), interval is None, sensitivity is not None)
     factor, words = reading.newtons(sensitivity, mass)
     wanted = [reading.force] if reading.time is None else [reading.time, reading.force]
+    if scale is None:
+        reading.check_factor()
     numbers = table.numbers(wanted)
+    numbers[np.abs(numbers) > _OVERRANGE] = np.nan
     if reading.time is None or reading.time_unit is None:
         times, how = reading.times(len(numbers), interval)
     else:
         times = numbers[:, 0] * reading.time_unit.factor
+        reading.check_interval(times)
         how = f"time: {reading._label(reading.time)}, {reading.time_unit.symbol}"
-    forces = numbers[:, -1] * factor * scale
+    forces = numbers[:, -1] * factor * (1.0 if scale is None else float(scale))
     if sign is None and "times" in words and np.nanmin(forces) < -np.nanmax(forces):
         forces, words = -forces, words + ", which slows the striker down: sign changed"
-    return _signal(table, wanted, times, forces, [how, words], sign, reading.quantity)
+    return _signal(table, wanted, times, forces, [how, words, *reading.overruled], sign, reading.quantity)
 
 
 def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], forces: npt.NDArray[np.float64],
@@ -292,6 +344,9 @@ def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], for
         assumed.append(f"{n_left_out} rows without a number left out")
     times, forces = times[kept], forces[kept]
     steps = np.diff(times)
+    if len(steps) > 1 and (steps < 0.0).all():
+        times, forces, steps = times[::-1], forces[::-1], -steps[::-1]
+        assumed.append("rows from the last to the first")
     if (steps < 0.0).any():
         line = table.line_of(int(kept[int(np.argmax(steps < 0.0)) + 1]), wanted)
         table.fail(line, "the time is earlier than that of the row above; give rows=N to end before this line, columns=T,F "

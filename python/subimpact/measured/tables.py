@@ -14,15 +14,18 @@ import numpy as np
 
 from .._errors import ResultsError
 from .._text import one_line
-from .units import Unit, quantity, unit_in, unit_of
+from .units import BRACKETS, Unit, quantity, unit_in, unit_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
 _EMPTY = ("", "nan", "-nan", "inf", "-inf", "+inf", "infinity", "-infinity", "∞", "-∞", "+∞", "n/a", "#n/a", "na",
-          "null", "none", "--", "-", "1.#qnan", "1.#inf", "-1.#inf", "-1.#ind", "overflow", "over")
+          "null", "none", "--", "-", "overflow", "over", *(sign + text for sign in ("", "-", "+") for text in
+                                                                   ("1.#qnan", "1.#snan", "1.#inf", "1.#ind", "nan(ind)")))
+_CLOCK = re.compile(r"(?:(?<=[,;\t\"])|^)(?:\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d+)?)(?:Z|[-+]\d\d:?\d\d)?(?=[,;\t\"]|$)")
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+|\d{1,3}(?:[.,]\d{3})+(?:[.,]\d*)?)(?:[eE][-+]?\d+)?")
 _NUMBERS_ONLY = re.compile(r"[-+\d.,;|\s\"eEnaif∞]*\d[-+\d.,;|\s\"eEnaif∞]*", re.IGNORECASE)
+_OTHER_UNITS = ("°C", "C", "K", "%", "m", "mm", "um", "µm", "m/s", "mm/s", "rpm", "1/min", "bar", "Pa", "kPa", "MPa", "A", "mA", "°", "dB")
 _INDEX = ("sequence", "sample", "samples", "index", "point", "points", "nr", "no", "")
 _BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF32_LE: "utf-32", codecs.BOM_UTF32_BE: "utf-32",
          codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
@@ -43,7 +46,9 @@ def _decoded(content: bytes, file: str) -> str:
         text = "\0" if codec else content.decode("cp1252", "replace")
     if "\0" in text[:2000]:
         raise ResultsError(f"{file}: is no text; allowed: CSV and other tables of numbers; export it as CSV")
-    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    text = text.replace("\r\n", "\n").replace("\r", "\n").replace("\u2212", "-")
+    if "'" in text or "\u2019" in text:
+        text = re.sub(r"(?<=\d)['\u2019](?=\d{3})", "", text)  # thousands
     return re.sub(r"(?<=\d)[\u00a0\u202f](?=\d)", "", text) if "\u00a0" in text or "\u202f" in text else text
 
 
@@ -66,6 +71,7 @@ class Table:
             self.lines[0] = ""
         self.maker = next((name for name in ("LabVIEW", "LECROY") if self.lines[0].startswith(name)), "")
         self.lines[:skip] = [""] * min(skip, len(self.lines))
+        self._read_clock()
         sample = self._sample()
         self.separator = separator or self._separator_of(sample)  #: " " for blanks
         self._is_paired = self.separator == decimal == "," and not any('"' in line for line in sample)
@@ -82,6 +88,13 @@ class Table:
         """The line without marks of a comment."""
         marks = r"\s*(?:[#%!*;]+|//+)\s*" if self.separator != ";" else r"\s*(?:[#%!*]+|//+)\s*"
         return re.sub(marks, "", line, count=1) if re.match(marks, line) else line
+
+    def _read_clock(self) -> None:
+        """Puts seconds in place of times of day such as 12:03:04.123456."""
+        self.has_clock = sum(bool(_CLOCK.search(line)) for line in self.lines[:200]) > min(3, len(self.lines) // 4)
+        if self.has_clock:
+            self.lines = [_CLOCK.sub(lambda at: str(3600 * int(at[1]) + 60 * int(at[2]) + int(at[3][:2])) + at[3][2:], line)
+                          for line in self.lines]
 
     def _sample(self) -> list[str]:
         """Lines that hold numbers alone, or else any from the later half."""
@@ -108,6 +121,8 @@ class Table:
             text = "\n".join(re.findall(r'"([^"]*)"', text))
             if "," not in text:
                 return "."
+        if not any(mark in text for mark in ".,"):
+            text = "\n".join(filter(_NUMBERS_ONLY.fullmatch, self.lines))
         marks = [mark for mark in ".," if mark in text]
         if both := re.findall(r"\d([.,])\d+([.,])\d", text):
             return next((last for first, last in both if first != last), "," if both[0][0] == "." else ".")
@@ -168,7 +183,7 @@ class Table:
     def _is_units(self, cells: list[str]) -> bool:
         """Whether this row has the units of the columns."""
         has = [unit_of(cell) is not None for cell in cells]
-        return any(has) and all(known or cell.lower() in _INDEX or re.fullmatch(r"[\[(].*[\])]", cell) is not None
+        return any(has) and all(known or cell.lower() in _INDEX or cell in _OTHER_UNITS or re.fullmatch(r"[\[(].*[\])]", cell) is not None
                                 or (j not in self.columns and _NUMBER.fullmatch(cell) is not None)
                                 for j, (cell, known) in enumerate(zip(cells, has)))
 
@@ -253,8 +268,9 @@ class Table:
             return
         unit = unit_in(key)
         number = quantity(values[0])
-        if unit and number and not number[1]:
-            values = (f"{number[0]!r} {unit.symbol}", *values[1:])
+        stated = unit.symbol if unit else bracket[1] if (bracket := BRACKETS.search(key)) else ""  # "Sensitivity [mV/N]"
+        if stated and number and not number[1]:
+            values = (f"{number[0]!r} {stated}", *values[1:])
         self.metadata.setdefault(re.sub(r"[\[({].*|[^a-z0-9]", "", key.lower()), list(values))
 
     def numbers(self, wanted: list[int]) -> npt.NDArray[np.float64]:
@@ -262,12 +278,14 @@ class Table:
         import pandas
 
         body = self.lines[self.first :]
+        if any("#" in line for line in body):  # comments, but not within numbers
+            body = [re.sub(r"(?:^|(?<=[\s,;]))#(?!n/?a).*", "", line, flags=re.IGNORECASE) for line in body]
         if self.separator != "," or '"' in body[0] or max(line.count(",") for line in body) < self.width:
             try:
                 frame = pandas.read_csv(
                     io.StringIO("\n".join(body)), sep=r"\s+" if self.separator == " " else self.separator, header=None,
                     names=list(range(self.width)), usecols=wanted, decimal=self.decimal, dtype=float, index_col=False,
-                    na_values=[*_EMPTY, "NaN", "Inf", "OVERFLOW"], skipinitialspace=True, comment="#")
+                    na_values=[*_EMPTY, *map(str.upper, _EMPTY), "NaN", "Inf"], skipinitialspace=True)
                 return np.column_stack([frame[j].to_numpy() for j in wanted])
             except ValueError:  # a cell that is no number; those of ParserError too
                 pass

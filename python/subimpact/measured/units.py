@@ -41,8 +41,10 @@ def _table() -> dict[str, Unit]:
     for careless, symbol in {"S": "s", "mS": "ms", "uS": "us", "US": "us", "nS": "ns", "NS": "ns", "KN": "kN",
                              "Sa/s": "S/s", "kSa/s": "kS/s", "MSa/s": "MS/s", "1/s": "Hz"}.items():
         table[careless] = table[symbol]
-    for symbol, factor in {"lbf": 4.4482216152605, "kgf": _STANDARD_GRAVITY, "kp": _STANDARD_GRAVITY}.items():
+    for symbol, factor in {"lbf": 4.4482216152605, "lbs": 4.4482216152605, "kgf": _STANDARD_GRAVITY, "kp": _STANDARD_GRAVITY,
+                           "daN": 10.0}.items():
         table[symbol] = Unit("force", factor, symbol)
+    table["min"] = Unit("time", 60.0, "min")
     for symbol in ("g", "G", "gn"):
         table[symbol] = Unit("acceleration", _STANDARD_GRAVITY, "g")
     for symbol in ("m/s2", "m/s/s", "ms-2", "m/sec2"):
@@ -57,7 +59,7 @@ def _table() -> dict[str, Unit]:
 
 
 _UNITS = _table()
-_BRACKETS = re.compile(r"[\[({<]\s*([^\[\](){}<>]+?)\s*[\])}>]")
+BRACKETS = re.compile(r"[\[({<]\s*([^\[\](){}<>]+?)\s*[\])}>]")
 _QUANTITIES = r"t|time|zeit|f|force|kraft|load|u|voltage|spannung|a|acceleration|beschleunigung"
 _FRACTION = re.compile(rf"\s*(?:{_QUANTITIES})\s*/\s*(.+)", re.IGNORECASE)  # "F/N"
 
@@ -71,9 +73,10 @@ def unit_of(text: str) -> Unit | None:
 
 def unit_in(name: str) -> Unit | None:
     """The unit that a heading ends in: "Time (us)", "time_us", "F/N", "Kraft in kN"; not "v_m_per_s"."""
-    if brackets := _BRACKETS.findall(name):
+    if brackets := BRACKETS.findall(name):
         units = [unit for text in brackets if (unit := unit_of(text))]
-        return units[-1] if units else None
+        is_scaled = re.search(r"[])}>]\s*[x*×·]\s*\d|10\s*\^", name) is not None  # "Force [N] x 1000"
+        return units[-1] if units and not is_scaled and (len(units) == 1 or units[-2].kind != units[-1].kind) else None
     if whole := unit_of(name):
         return whole
     if fraction := _FRACTION.fullmatch(name):
