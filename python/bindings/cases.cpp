@@ -7,6 +7,7 @@
 
 #include "bindings.h"
 #include "case/keys/materials.h"
+#include "case/keys/units.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/results.h"
@@ -115,6 +116,10 @@ void bind_cases(py::module_& module) {
         return to_python(key_value(key_of(name), value));
       },
       py::arg("key"), py::arg("value"));
+  module.def(
+      "value_in",
+      [](const std::string& unit, const std::string& text) { return value_in(unit, text); },
+      py::arg("unit"), py::arg("text"));
   module.def("load", &load, py::arg("text"), py::arg("name"), py::arg("settings"));
 
   py::class_<LoadedCase>(module, "LoadedCase")

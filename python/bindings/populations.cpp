@@ -6,10 +6,22 @@
 #include <vector>
 
 #include "bindings.h"
+#include "case/keys/units.h"
 #include "subimpact/study/population.h"
 
 namespace subimpact::python {
 namespace {
+
+// The number that a text with a unit stands for, unless the unit depends on the contact law.
+KeyValue in_si(const CaseKey& key, KeyValue value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (text == nullptr || key.type != KeyType::number ||
+      key.unit.find(" or ") != std::string::npos) {
+    return value;
+  }
+  const std::optional<double> number = value_in(key.unit, *text);
+  return number ? KeyValue(*number) : value;
+}
 
 // The points of one axis, with values as their keys take them.
 PopulationAxis axis_of(const std::vector<std::string>& keys, const py::list& points) {
@@ -19,7 +31,7 @@ PopulationAxis axis_of(const std::vector<std::string>& keys, const py::list& poi
     std::vector<KeyValue> converted;
     for (std::size_t k = 0; k < values.size(); ++k) {
       const CaseKey* key = k < keys.size() ? find_case_key(keys[k]) : nullptr;
-      converted.push_back(key != nullptr ? key_value(*key, values[k]) : KeyValue());
+      converted.push_back(key != nullptr ? in_si(*key, key_value(*key, values[k])) : KeyValue());
     }
     axis.points.push_back(std::move(converted));
   }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -58,7 +59,10 @@ std::optional<KeyValue> list(py::handle value) {
   return texts;
 }
 
-std::optional<KeyValue> any_value(py::handle value) {
+std::optional<KeyValue> any_value(py::handle given) {
+  const bool is_array = std::string(Py_TYPE(given.ptr())->tp_name) == "numpy.ndarray";
+  const bool is_single = is_array && given.attr("ndim").cast<int>() == 0;
+  const auto value = is_single ? py::object(given.attr("item")()) : given.cast<py::object>();
   if (is_bool(value)) return value.cast<py::object>().attr("__bool__")().cast<bool>();
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   if (is_number(value)) return number(value);
@@ -86,7 +90,10 @@ std::optional<KeyValue> placed(const CaseKey& key, py::handle value) {
 
 KeyValue key_value(const CaseKey& key, py::handle value) {
   const bool is_placed = key.type == KeyType::placed && !py::isinstance<py::str>(value);
-  const std::optional<KeyValue> converted = is_placed ? placed(key, value) : any_value(value);
+  std::optional<KeyValue> converted = is_placed ? placed(key, value) : any_value(value);
+  const auto* real = converted ? std::get_if<double>(&*converted) : nullptr;
+  const bool is_whole = real != nullptr && std::abs(*real) < 1e15 && std::trunc(*real) == *real;
+  if (key.type == KeyType::count && is_whole) converted = static_cast<std::int64_t>(*real);
   const auto* text = converted ? std::get_if<std::string>(&*converted) : nullptr;
   const bool is_with_unit = text != nullptr && key.type == KeyType::number;
   if (const auto in_si = is_with_unit ? value_in(key.unit, *text) : std::nullopt) {

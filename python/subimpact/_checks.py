@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 from numbers import Integral, Real
+from typing import Any
+
+from . import _core
+from ._text import is_unicode
 
 #: s: three years.
 LONGEST = 1e8
 #: Of a timeout, in words.
-ALLOWED_TIMEOUT = f"seconds above 0, up to {LONGEST:g}; leave it out for no limit"
+ALLOWED_TIMEOUT = f'seconds above 0, up to {LONGEST:g}, or a text such as "90 s"; leave it out for no limit'
 
 
 def is_whole(value: object, least: int, most: int) -> bool:
@@ -32,10 +36,12 @@ def check_jobs(jobs: object) -> None:
         raise ValueError(f"jobs is {jobs!r}; allowed: a whole number of threads, 1 or more")
 
 
-def check_timeout(timeout: object) -> None:
-    """Raises ValueError."""
-    if timeout is not None and not is_positive(timeout, LONGEST):
-        raise ValueError(f"timeout is {timeout!r}; allowed: {ALLOWED_TIMEOUT}")
+def seconds(timeout: Any, kind: type[ValueError] = ValueError) -> float | None:
+    """A timeout such as 60.0 or "60 s", s. Raises `kind`."""
+    time = _core.value_in("s", timeout) if isinstance(timeout, str) and is_unicode(timeout) else timeout
+    if timeout is not None and not is_positive(time, LONGEST):
+        raise kind(f"timeout is {timeout!r}; allowed: {ALLOWED_TIMEOUT}")
+    return None if time is None else float(time)
 
 
 def check_progress(progress: object) -> None:

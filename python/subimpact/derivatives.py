@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 from . import _core
 from ._checks import check_jobs, check_progress
@@ -50,10 +50,14 @@ class Sensitivity:
         return self._study.table()
 
     def jacobian(self, quantity: Quantity) -> npt.NDArray[np.float64]:
-        """The derivatives of one quantity: a row per sub-impact that has it, a column per key. The
-        change by one per cent of a key is a hundredth of its column."""
+        """The derivatives of one quantity by the logarithms of `keys`, of shape (sub-impacts that
+        have it, keys), in its own unit, with which its name ends: "start_s", "end_s",
+        "peak_force_N", "impulse_Ns", "max_indentation_m" or "striker_velocity_m_per_s". The change
+        by one per cent of a key is a hundredth of its column. Raises ValueError for other names."""
         import numpy as np
 
+        if quantity not in get_args(Quantity):
+            raise ValueError(f"quantity is {quantity!r}; allowed: {', '.join(get_args(Quantity))}")
         rows = self.table[self.table["quantity"] == quantity]
         columns = [rows[f"d_{key}"] for key in self.keys]
         return np.stack(columns, axis=1) if columns else np.empty((len(rows), 0))

@@ -89,8 +89,8 @@ class Result:
 
     @property
     def outcome(self) -> str:
-        """ "completed", "stopped", "inaccurate", "unstable", "chattering", "solver_failed" or
-        "left_validity"."""
+        """ "completed", "stopped", "inaccurate", "unstable", "chattering", "solver-failed" or
+        "left-validity"."""
         return self._finished.outcome
 
     @property

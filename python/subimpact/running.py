@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Literal
 
 from . import _core
-from ._checks import check_jobs, check_progress, check_timeout
-from ._errors import OutputError
+from ._checks import check_jobs, check_progress, seconds
+from ._errors import CaseError, OutputError
 from ._text import path_text
 from .case import Case, as_case
 from .result import Result
@@ -20,10 +20,10 @@ def run(
     case: Case,
     *,
     error_bars: ErrorBars | None = None,
-    within: float | None = None,
+    within: float | str | None = None,
     jobs: int = 1,
     progress: Callable[[float], object] | None = None,
-    timeout: float | None = None,
+    timeout: float | str | None = None,
     model_errors: bool = True,
     out: str | os.PathLike[str] | None = None,
 ) -> Result:
@@ -32,11 +32,11 @@ def run(
     error_bars  None: the errors of event times are estimated from a run half as fine, for a quarter
                 of the time; "off": no estimates; "time", "all": from other runs, one for each
                 source of error, which takes longer
-    within      bound on the error of every event time, s; the program chooses what the
+    within      bound on the error of every event time, s or "1 us"; the program chooses what the
                 case leaves open of mesh, method and tolerance. Sets accuracy.event_times
     jobs        threads for the runs of error estimates; results do not depend on it
     progress    called up to twenty times per second with the simulated time, s; False ends the run
-    timeout     ends the run after some seconds
+    timeout     ends the run after some seconds, or "90 s"
     model_errors  whether errors of the model itself are estimated too: `Result.summary["model_errors"]`
     out         directory for the files of the run: `Result.write`
 
@@ -51,11 +51,13 @@ def run(
     case = as_case(case)
     if within is not None:
         case = case.changed({"accuracy.event_times": within})
+        if case["accuracy.event_times"] > case["time.end"]:
+            raise CaseError(f"within is {within!r}; allowed: up to time.end, {case['time.end']:g} s")
     check_jobs(jobs)
     check_progress(progress)
-    check_timeout(timeout)
+    limit = seconds(timeout)
     directory = None if out is None else path_text(out, OutputError)
-    result = Result(_core.run(case._load(), error_bars, jobs, progress, timeout, model_errors))
+    result = Result(_core.run(case._load(), error_bars, jobs, progress, limit, model_errors))
     if directory is not None:
         result.write(directory)
     return result

@@ -84,6 +84,16 @@ void NearMissSearch::keep(const NearMiss& near_miss) {
   kept_[i] = near_miss;
 }
 
+std::optional<ClosestApproach> NearMissSearch::closest(double end, const State& y,
+                                                       const StruckBeam& beam) const {
+  std::optional<ClosestApproach> found;
+  if (n_ > 0) found = {kept_[0].time, kept_[0].margin, {}};
+  const double gap = beam.contact().residual_indentation() - beam.indentation(y);
+  const bool is_closing = beam.indentation_rate(y) > 0.0;
+  if (is_closing && !(found && found->gap <= gap)) found = {end, gap, {}};
+  return found;
+}
+
 void NearMissSearch::finish(double residual, std::vector<NearMiss>& near_misses) {
   const double largest = farthest_ - sense_ * residual;
   const auto before = static_cast<std::ptrdiff_t>(near_misses.size());

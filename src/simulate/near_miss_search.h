@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "simulate/loop/observed_step.h"
@@ -36,7 +37,8 @@ class NearMissSearch {
     }
   }
 
-  const NearMiss* nearest() const { return n_ > 0 ? kept_.data() : nullptr; }
+  /// Of a separation that lasts until the end of the run: none if the gap only grows.
+  std::optional<ClosestApproach> closest(double end, const State& y, const StruckBeam& beam) const;
 
   /// Appends the near misses of the contact or separation that ends, in order of time: those whose
   /// margin is below half of the largest gap reached. `residual`: lambda_r at its end, m.

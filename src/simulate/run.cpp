@@ -182,9 +182,12 @@ LoopOptions loop_options(const RunParts& parts) {
   loop.largest_indentation = is_spring ? HUGE_VAL : parts.problem.beam.height();
   if (const double deepest = law.largest_indentation(); deepest < loop.largest_indentation) {
     loop.largest_indentation = deepest;
-    loop.end_of_law =
-        fmt::format("{:.4g} mm, where the contact is as wide as the law \"{}\" allows on this beam",
-                    mm * deepest, law.name());
+    const std::string why =
+        law.name() == "curve"
+            ? "the last point of contact.curve_indentation; add points to it and to "
+              "contact.curve_force, or"
+            : "where the contact is as wide as the law \"" + law.name() + "\" allows on this beam;";
+    loop.end_of_law = fmt::format("{:.4g} mm, {}", mm * deepest, why);
   }
   loop.audit_interval = descriptor_of(given.solver.method).audit_interval;
   loop.shortest_contact = M_PI / used.joined_frequency;

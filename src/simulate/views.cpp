@@ -105,10 +105,9 @@ void join_sub_impacts(std::vector<SubImpact>& sub_impacts, double opening) {
 }
 
 std::size_t n_parted_by(double opening, const std::vector<SubImpact>& sub_impacts) {
-  if (sub_impacts.empty()) return 0;
-  return 1 + static_cast<std::size_t>(std::count_if(
-                 sub_impacts.begin(), sub_impacts.end() - 1,
-                 [&](const SubImpact& s) { return s.opening.value_or(HUGE_VAL) >= opening; }));
+  return static_cast<std::size_t>(std::ranges::count_if(sub_impacts, [&](const SubImpact& s) {
+    return s.end && s.opening.value_or(HUGE_VAL) >= opening;
+  }));
 }
 
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts) {
@@ -118,11 +117,13 @@ std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impac
       zones.push_back({});
       zones.back().zone = s.zone;
       zones.back().start = s.start;
+      zones.back().start_error = s.start_error;
     }
     ZoneSummary& zone = zones.back();
     ++zone.n_sub_impacts;
     zone.n_subzones = std::max(zone.n_subzones, s.subzone);
     zone.end = s.end;
+    zone.end_error = s.end_error;
     zone.impulse += s.impulse;
     zone.peak_force = std::max(zone.peak_force, s.peak_force);
   }

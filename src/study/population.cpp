@@ -68,9 +68,9 @@ void check_scatter(const CaseKey& key, double deviation, const std::optional<Key
   if (!number || !std::isfinite(*number)) {
     throw InvalidCase(key.name, "has no finite value in the base case about which to scatter");
   }
-  if (!(deviation > 0.0 && std::isfinite(deviation))) {
+  if (!(deviation > 0.0 && deviation <= 0.5)) {
     throw InvalidCase(key.name, fmt::format("has a scatter of {:g}; allowed: a relative standard "
-                                            "deviation above 0, such as 0.01",
+                                            "deviation above 0, up to 0.5, such as 0.01",
                                             deviation));
   }
 }

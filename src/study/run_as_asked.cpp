@@ -67,7 +67,7 @@ WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& reques
   }
   const bool has_errors = request.error_bars != ErrorBars::off && !is_interrupted && is_first;
   if (has_errors && request.model_errors) {
-    run.result.model_errors = model_errors(run.input, run.result);
+    run.result.model_errors = model_errors(run.input, run.result, request.progress);
   }
   run.result.work.all_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

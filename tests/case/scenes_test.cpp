@@ -346,6 +346,24 @@ TEST(AScene, ProvesNoMoreContactUnderGravityOnlyWhereItMayBe) {
   EXPECT_FALSE(simulate(input).no_more_contact) << "the load still changes";
 }
 
+TEST(AScene, SaysHowFarTheGapHasFallenWhereTheNextTouchIsStillToCome) {
+  Case input = rigid_case();
+  input.scene.beam.fixed = true;
+  input.scene.gravity = 9.81;
+  input.scene.striker.velocity = 0.3;
+  const double touch = 2.0 * 0.3 / 9.81;  // after a flight from the first parting, about
+  for (const double share : {0.3, 0.8}) {
+    input.end_time = share * touch;
+    const Result result = completed(input);
+    ASSERT_EQ(result.sub_impacts.size(), 1u);
+    EXPECT_EQ(result.closest_approach.has_value(), share > 0.5) << "the gap grows at first";
+    if (!result.closest_approach) continue;
+    const double t = input.end_time - *result.sub_impacts[0].end;
+    EXPECT_NEAR(result.closest_approach->gap, 0.3 * t - 0.5 * 9.81 * t * t, 1e-7);
+    EXPECT_EQ(result.closest_approach->time, input.end_time);
+  }
+}
+
 TEST(AScene, SaysThatABodyAtRestOnAnotherIsAContactWithoutEnd) {
   Case input = rigid_case();
   input.scene.beam.fixed = true;

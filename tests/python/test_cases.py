@@ -74,6 +74,8 @@ def test_numpy_numbers_and_arrays_are_values(elastic):
     elastic["study.pair_detection"] = np.bool_(False)
     elastic["output.points"] = np.array([0.25, 0.75])
     elastic["output.sections"] = ()
+    elastic["beam.length"] = np.array(0.5)
+    assert elastic["beam.length"] == 0.5
     assert elastic["striker.velocity"] == 2.5
     assert elastic["model.segments"] == 101
     assert elastic["study.pair_detection"] is False
@@ -206,6 +208,31 @@ def test_identity_depends_on_values_but_not_on_the_title(elastic):
     assert other.identity("how") != elastic.identity()
     for key, value in (("striker.velocity", np.nextafter(15.9, 16)), ("output.zone_gap", 0.2)):
         assert elastic.changed({key: value}).identity() != elastic.identity()
+
+
+def test_whole_floating_point_numbers_are_counts(elastic):
+    elastic["model.segments"] = 101.0
+    assert repr(elastic["model.segments"]) == "101"
+    assert si.Plan(elastic, {"model.segments": np.linspace(51, 101, 3)}).settings(1) == [("model.segments", 76)]
+    for value in (101.5, 1e300, float("inf")):
+        with pytest.raises(si.CaseError, match="allowed: a whole number"):
+            elastic["model.segments"] = value
+
+
+def test_gauges_at_a_length_are_gauges_at_its_fraction(elastic):
+    elastic["output.gauges"] = [{"position": "355.6 mm"}]
+    assert elastic["output.gauges"] == [{"position": 0.5, "face": "back"}]
+    elastic["output.gauges"] = [{"position": "0.8 m"}]
+    with pytest.raises(si.CaseError, match="position 1.12.*beam.length is 0.7112 m"):
+        elastic.check()
+
+
+def test_a_missing_number_is_asked_for_with_its_unit_behind_its_name(elastic):
+    for key, words in (("beam.youngs_modulus", "give the Young's modulus in Pa"),
+                       ("striker.velocity", "give the velocity at t = 0 in m/s")):
+        with pytest.raises(si.CaseError) as refused:
+            elastic[key] = "much"
+        assert words in str(refused.value)
 
 
 def test_values_with_a_unit_are_those_of_a_file(elastic):

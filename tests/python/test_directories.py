@@ -29,13 +29,13 @@ def swept(population, tmp_path):
 def test_both_tables_are_sealed_as_one(swept):
     directory, sweep = swept
     first = manifest(directory)
-    assert first["kind"] == "sweep" and set(first["files"]) == {"runs.csv", "sub_impacts.csv"}
+    assert first["kind"] == "sweep" and set(first["files"]) == {"base.toml", "runs.csv", "sub_impacts.csv"}
     for name, seal in first["files"].items():
         assert seal["sha256"] == hashlib.sha256((directory / name).read_bytes()).hexdigest()
     sweep(0.4)
     assert manifest(directory)["identity"] != first["identity"]
     names = {path.name for path in directory.iterdir()}
-    assert names == {"manifest.json", "runs.csv", "sub_impacts.csv", "sweep.sqlite"}
+    assert names == {"base.toml", "manifest.json", "runs.csv", "sub_impacts.csv", "sweep.sqlite"}
 
 
 def test_changed_and_foreign_files_are_kept_and_named(swept):
@@ -96,7 +96,7 @@ def test_hdf5_goes_with_its_tables_and_with_no_others(swept):
     done = sweep(0.1, 0.2)
     done.write_hdf5()
     done.write_hdf5()  # again
-    assert set(manifest(directory)["files"]) == {"runs.csv", "sub_impacts.csv", "sweep.h5"}
+    assert set(manifest(directory)["files"]) == {"base.toml", "runs.csv", "sub_impacts.csv", "sweep.h5"}
     sweep(0.4)
     assert not (directory / "sweep.h5").exists()
     with open(directory / "runs.csv", "a") as file:

@@ -186,6 +186,14 @@ def test_a_map_has_the_number_of_every_cell_and_tells_one_from_two():
         plot.sweep_map(grid(**{"striker.mass": [0.1] * 6}))
 
 
+def test_what_a_figure_does_not_draw_is_refused_with_what_it_draws(run):
+    for draw, source, words in ((plot.sweep_map, run, "sweep_map.. has a Result; allowed: the runs of a sweep"),
+                                (plot.response, si.Case(), "response.. has a Case; allowed: a subimpact.Result"),
+                                (plot.outcomes, None, "has a NoneType; allowed: a table")):
+        with pytest.raises(TypeError, match=words):
+            draw(source)
+
+
 def test_a_histogram_marks_mean_and_quantiles():
     forces = np.arange(101.0)
     axes = plot.histogram({"max_force_N": forces}, None, "max_force_N")

@@ -109,6 +109,22 @@ def test_a_timeout_that_is_none_is_refused(elastic, timeout):
         si.run(elastic, timeout=timeout)
 
 
+def test_times_of_a_run_may_have_a_unit(elastic, without_rows):
+    result = si.run(elastic, within="1 us", timeout="90 s")
+    assert result["accuracy.event_times"] == 1e-6 and not result.timed_out
+    assert si.run(without_rows.changed({"time.end": 1000.0}), error_bars="off", timeout="50 ms").timed_out
+    with pytest.raises(si.CaseError, match="within is 1; allowed: up to time.end, 0.002 s"):
+        si.run(elastic, within=1)
+
+
+def test_a_curve_that_ends_too_soon_is_named_as_the_cause(elastic):
+    del elastic["contact.stiffness"], elastic["striker.nose_radius"]
+    result = si.run(elastic.changed({"contact.law": "curve", "contact.curve_indentation": [1e-5],
+                                     "contact.curve_force": [100.0]}), error_bars="off")
+    assert result.outcome == "left-validity"
+    assert "0.01 mm, the last point of contact.curve_indentation; add points to it" in result.message
+
+
 def test_progress_that_cannot_be_called_is_refused(elastic, tmp_path):
     for call in (si.run, si.sensitivity, lambda case, progress: si.sweep(case, out=tmp_path, progress=progress)):
         with pytest.raises(TypeError, match="progress is 5; allowed: a function"):
@@ -124,7 +140,7 @@ def test_a_path_with_nul_is_no_shorter_path(elastic, tmp_path, monkeypatch):
         with pytest.raises(si.ResultsError, match="is no path"):
             si.read_results(out)
         with pytest.raises(si.StoreError, match="is no path"):
-            si.sweep(elastic, out=out)
+            si.sweep(elastic, {"striker.mass": [0.1]}, out=out)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -212,7 +228,7 @@ def test_two_threads_run_at_the_same_time(elastic):
 
 def test_a_failure_is_a_result(yielding):
     result = si.run(yielding.changed({"solver.step": 3e-6, "study.beyond_critical": True}))
-    assert result.outcome in ("unstable", "inaccurate", "left_validity")
+    assert result.outcome in ("unstable", "inaccurate", "left-validity")
     assert result.message and not result.usable
 
 
@@ -231,7 +247,7 @@ def test_a_result_is_the_same_after_pickling(elastic):
 
 def test_gauges_are_columns_of_the_history_after_files_and_pickling_too(elastic, tmp_path):
     case = elastic.changed({"time.end": 1e-4, "output.gauges": [{"position": np.float64(0.5)}, {"position": "0.3 m", "face": "front"}]})
-    assert case["output.gauges"] == [{"position": 0.5, "face": "back"}, {"position": "0.3 m", "face": "front"}]
+    assert case["output.gauges"] == [{"position": 0.5, "face": "back"}, {"position": 0.3 / 0.7112, "face": "front"}]
     result = case.run(error_bars="off", out=tmp_path)
     assert result["output.gauges"][1] == {"position": 0.3 / case["beam.length"], "face": "front"}
     assert result.history.dtype.names[-2:] == ("gauge_1_strain", "gauge_2_strain") and np.ptp(result.history["gauge_2_strain"]) > 0

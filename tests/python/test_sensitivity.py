@@ -41,6 +41,8 @@ def test_a_jacobian_is_the_change_of_times(strike):
     ends = si.run(strike.changed({"solver.rtol": 1e-12}), error_bars="off").sub_impacts["end_s"]
     jacobian = study.jacobian("end_s")
     assert study.keys == BY and jacobian.shape == (np.isfinite(ends).sum(), 2)
+    with pytest.raises(ValueError, match="quantity is 'max_force_N'; allowed: start_s, end_s, peak_force_N"):
+        study.jacobian("max_force_N")
     shift = 1e-4
     for column, key in enumerate(BY):
         changed = {key: strike[key] * np.exp(shift), "solver.rtol": 1e-12}

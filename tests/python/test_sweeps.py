@@ -82,6 +82,22 @@ def test_keys_that_change_together_are_one_axis(elastic):
     assert plan.settings(1) == [("beam.width", 0.02), ("beam.thickness", 0.01)]
 
 
+def test_values_with_a_unit_are_numbers_of_the_plan(elastic, tmp_path):
+    plan = si.Plan(elastic, {"striker.velocity": ["2 m/s", 4.0], ("beam.width", "beam.thickness"): [("20 mm", "8 mm")]})
+    assert plan.settings(0) == [("striker.velocity", 2.0), ("beam.width", 0.02), ("beam.thickness", 0.008)]
+    elastic.write(tmp_path / "case.toml")
+    (tmp_path / "plan.toml").write_text('case = "case.toml"\ntimeout = "90 s"\n[axes]\nstriker.mass = ["100 g"]\n')
+    of_file = si.Plan.from_file(tmp_path / "plan.toml")
+    assert of_file.settings(0) == [("striker.mass", 0.1)] and of_file.timeout == 90.0
+
+
+def test_a_sweep_of_nothing_is_refused(elastic, tmp_path):
+    for axes in (None, {}):
+        with pytest.raises(si.PlanError, match="nothing differs from case to case; give axes"):
+            si.sweep(elastic, axes, out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.mark.parametrize("axes, scatter, words", [
     ({"striker.velocty": [1.0]}, {}, "did you mean"),
     ({"striker.velocity": [1.0, -1.0]}, {}, "0 or above"),
@@ -91,6 +107,9 @@ def test_keys_that_change_together_are_one_axis(elastic):
     ({}, {"beam.theory": 0.01}, "no number"),
     ({}, {"beam.yield_stress": 0.01}, "no finite value"),
     ({}, {"striker.mass": -0.01}, "above 0"),
+    ({}, {"beam.length": 5}, "up to 0.5"),
+    ({"beam.length": ["200 g"]}, {}, '"g" is none of its units'),
+    ({"contact.stiffness": ["2 kN/m"]}, {}, "write the number without a unit"),
 ])
 def test_what_is_no_plan_is_refused(elastic, axes, scatter, words):
     with pytest.raises(ValueError, match=words):

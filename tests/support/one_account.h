@@ -5,9 +5,10 @@
 
 namespace subimpact {
 
-/// Counts, verdicts and totals of a judged run are one account: zones add up to the run, the
-/// number of sub-impacts has no error where all are certain, and contact is not said to be over
-/// where another sub-impact is possible.
+/// Counts, verdicts and totals of a judged run are one account: zones add up to the run, their
+/// times have no smaller errors than those of their sub-impacts, the number of sub-impacts has no
+/// error where all are certain, and contact is not said to be over where another sub-impact is
+/// possible.
 inline void expect_one_account(const Result& result) {
   ASSERT_TRUE(result.error_estimate);
   const ErrorEstimate& estimate = *result.error_estimate;
@@ -23,6 +24,11 @@ inline void expect_one_account(const Result& result) {
     errors += zone.sub_impacts.error.value_or(HUGE_VAL);
   }
   EXPECT_EQ(of_zones, n);
+  for (const SubImpact& s : result.sub_impacts) {
+    const ZoneTotals& zone = estimate.zones.at(static_cast<std::size_t>(s.zone - 1));
+    EXPECT_TRUE(s.start != zone.start.value || zone.start.error.value_or(1.0) >= s.start_error);
+    EXPECT_TRUE(s.end != zone.end.value || zone.end.error.value_or(1.0) >= s.end_error);
+  }
   EXPECT_EQ(errors, n > 0.0 ? error.value_or(HUGE_VAL) : 0.0);
   const double n_doubts = n - static_cast<double>(*result.n_certain()) +
                           static_cast<double>(estimate.uncertain_flights.size());

@@ -90,7 +90,9 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
                      {"restitution", {0.0, 7.6e-5}},
                      {"impulse_Ns", {0.3, 1.1e-3}},
                      {"peak_force_N", {result.max_force, 0.43}},
-                     {"max_indentation_m", {result.max_indentation, 8e-9}}};
+                     {"max_indentation_m", {result.max_indentation, 8e-9}},
+                     {"residual_indentation_m",
+                      {result.sub_impacts.back().residual_indentation, 9e-7}}};
   estimate.zones = {{{0.0, 0.0}, {0.6e-3, 0.26e-6}, {0.2, 5.3e-4}, count(0, 2)},
                     {{5e-3, 0.26e-6}, {result.outcome.time, 0.0}, {0.1, 5.2e-4}, count(2, 3)}};
   result.error_estimate = estimate;

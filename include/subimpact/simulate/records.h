@@ -34,6 +34,13 @@ struct SubImpact : SubImpactAssessment {
   int subzone = 0;  ///< numbered from 1 within the zone
 };
 
+/// Smallest gap between the bodies before it grows for good, or until the run ends.
+struct ClosestApproach {
+  double time = 0.0;            ///< s
+  double gap = 0.0;             ///< m
+  std::optional<double> error;  ///< m, of the gap
+};
+
 /// The event that nearly happened when the indentation came close to the residual one.
 enum class NearMissKind {
   opening,  ///< within a contact: a local minimum of the indentation
@@ -67,10 +74,11 @@ struct ZoneSummary {
   int zone = 0;
   int n_sub_impacts = 0;
   int n_subzones = 0;
-  double start = 0.0;         ///< s
-  std::optional<double> end;  ///< s; none: still in contact
-  double impulse = 0.0;       ///< N s
-  double peak_force = 0.0;    ///< N
+  double start = 0.0;                                      ///< s
+  std::optional<double> end;                               ///< s; none: still in contact
+  std::optional<double> start_error = {}, end_error = {};  ///< s, of these sub-impacts
+  double impulse = 0.0;                                    ///< N s
+  double peak_force = 0.0;                                 ///< N
 };
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts);
 

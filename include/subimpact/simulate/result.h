@@ -240,13 +240,6 @@ struct Work : WorkCounts {
   double all_seconds = 0.0;   ///< with the runs beside and before it; 0: there were none
 };
 
-/// Smallest gap between the bodies before it grows for good, or until the run ends.
-struct ClosestApproach {
-  double time = 0.0;            ///< s
-  double gap = 0.0;             ///< m
-  std::optional<double> error;  ///< m, of the gap
-};
-
 /// What one run computes. Its base is what studies of several runs add.
 struct Result : Assessment {
   Outcome outcome;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import inspect
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from typing import Any
@@ -87,8 +88,15 @@ def figure(mosaic: Any, height: float = 4.6, **options: Any) -> Callable[[Draw],
     other options of that function."""
 
     def of(draw: Draw) -> Callable[..., Any]:
+        takes = next(iter(inspect.signature(draw).parameters))
+
         @functools.wraps(draw)
         def drawn(source: Any, axes: Any = None, *more: Any, **named: Any) -> Any:
+            is_table = isinstance(source, Mapping) or hasattr(source, "columns")
+            if not {"result": isinstance(source, Result), "tables": True}.get(takes, is_table):
+                kinds = {"result": "a subimpact.Result", "runs": "the runs of a sweep, sweep.runs"}
+                raise TypeError(f"{draw.__name__}() has a {type(source).__name__}; allowed: "
+                                f"{kinds.get(takes, 'a table')}")
             if axes is not None:
                 draw(source, axes, *more, **named)
                 return axes

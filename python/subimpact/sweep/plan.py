@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Union
 
 from .. import _core
-from .._checks import ALLOWED_TIMEOUT, LONGEST, is_positive, is_whole
+from .._checks import is_positive, is_whole, seconds
 from .._errors import PlanError
 from .._text import MOST_BYTES, is_unicode, read_at_most
 from .._toml import DEEPEST, flat, is_too_deep
@@ -83,8 +83,7 @@ class Plan:
         ):
             if not is_whole(value, least, most):
                 raise PlanError(f"{name} is {value!r}; allowed: a whole number, {least} to {most}; take one")
-        if self.timeout is not None and not is_positive(self.timeout, LONGEST):
-            raise PlanError(f"timeout is {self.timeout!r}; allowed: {ALLOWED_TIMEOUT}")
+        self.timeout = seconds(self.timeout, PlanError)
         if not isinstance(self.axes, Mapping):
             raise PlanError(f"axes is {self.axes!r}; allowed: lists of values by key")
         self._check_scatter()

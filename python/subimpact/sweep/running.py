@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from .._checks import check_progress, is_positive, is_whole
+from .._checks import check_progress, is_positive, is_whole, seconds
 from .._errors import PlanError, StoreError
 from .._text import path_text
 from ..case import Case
@@ -175,7 +175,7 @@ def sweep(
     samples: int | None = None,
     seed: int = 1,
     error_bars: str | None = None,
-    timeout: float | None = None,
+    timeout: float | str | None = None,
     workers: int | None = None,
     memory: float | None = None,
     executor: Any = None,
@@ -211,7 +211,10 @@ def sweep(
     if isinstance(case, Plan):
         plan = case
     else:
-        plan = Plan(case, {} if axes is None else axes, scatter, samples, seed, error_bars, timeout)
+        limit = seconds(timeout, PlanError)
+        plan = Plan(case, {} if axes is None else axes, scatter, samples, seed, error_bars, limit)
+        if not plan.keys():
+            raise PlanError('nothing differs from case to case; give axes, such as {"striker.mass": [0.1, 0.2]}')
     numbers = range(len(plan))[slice(*only)] if only else range(len(plan))
     with Interruption() as interruption, Store(out) as store:
         for directory in merge:

@@ -306,7 +306,8 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
       "the beam's thickness is {:.2g} of its length: plane sections, as in every beam theory, do "
       "not describe so thick a body",
       thickness);
-  add(!is_rigid && !beam.shears() && thickness > thickest_without_shear,
+  const bool is_chosen = input.model_choice.find("beam.theory") != std::string::npos;
+  add(!is_rigid && !beam.shears() && !is_chosen && thickness > thickest_without_shear,
       "the beam's thickness is {:.2g} of its length, and its theory leaves out shear; use "
       "beam.theory = \"timoshenko\"",
       thickness);

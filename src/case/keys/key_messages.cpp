@@ -108,15 +108,19 @@ std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
   const std::string hint = key.type == KeyType::number ? decimal_comma_hint(*text) : "";
   if (const std::string_view unit = split_unit(*text).unit; hint.empty() && !unit.empty()) {
     const std::string units = units_beside(key.unit);
-    return units.empty() ? "; write the number without a unit"
-                         : fmt::format("; \"{}\" is none of its units: {}", unit, units);
+    const bool is_known = value_in(key.unit, *text).has_value();
+    return units.empty() || is_known
+               ? "; write the number without a unit"
+               : fmt::format("; \"{}\" is none of its units: {}", unit, units);
   }
   return hint.empty() ? "; numbers are written without quotes" : hint;
 }
 
 std::string remedy(const CaseKey& key) {
   if (key.required) {
-    return fmt::format("give the {}{}", key.meaning, key.unit.empty() ? "" : " in " + key.unit);
+    if (key.unit.empty()) return "give the " + key.meaning;
+    return fmt::format("give the {} in {}", key.meaning.substr(0, key.meaning.find_first_of(";,")),
+                       key.unit);
   }
   const bool as_written = key.default_text.find(':') == std::string::npos;
   return fmt::format("correct it, or leave it out for the default{}{}", as_written ? ", " : " (",

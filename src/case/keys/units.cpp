@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace subimpact {
 namespace {
 
 struct NamedUnit {
   std::string_view of_keys, name;
-  int power;            // of ten, to the unit of keys
-  double factor = 1.0;  // a whole number, besides
+  int power;                           // of ten, to the unit of keys
+  double factor = 1.0, divisor = 1.0;  // whole numbers, besides
 };
 
 // clang-format off
@@ -19,7 +20,7 @@ constexpr NamedUnit named_units[] = {
     {"m", "in", -4, 254}, {"m", "inch", -4, 254},
     {"s", "s", 0}, {"s", "ms", -3}, {"s", "us", -6}, {"s", "ns", -9}, {"s", "ps", -12},
     {"kg", "kg", 0}, {"kg", "g", -3}, {"kg", "t", 3}, {"kg", "mg", -6}, {"kg", "lb", -8, 45359237},
-    {"m/s", "m/s", 0}, {"m/s", "mm/s", -3}, {"m/s", "km/s", 3}, {"m/s2", "m/s2", 0},
+    {"m/s", "m/s", 0}, {"m/s", "mm/s", -3}, {"m/s", "km/s", 3}, {"m/s", "km/h", 0, 5, 18}, {"m/s2", "m/s2", 0},
     {"Pa", "Pa", 0}, {"Pa", "kPa", 3}, {"Pa", "MPa", 6}, {"Pa", "GPa", 9}, {"Pa", "N/mm2", 6},
     {"kg/m3", "kg/m3", 0}, {"kg/m3", "g/cm3", 3}, {"1/s", "1/s", 0}, {"rad/s", "rad/s", 0}, {"s/m", "s/m", 0},
     {"N", "N", 0}, {"N", "mN", -3}, {"N", "kN", 3}, {"N", "MN", 6}, {"N", "uN", -6}, {"N", "nN", -9},
@@ -33,6 +34,18 @@ constexpr NamedUnit named_units[] = {
 bool has_unit(std::string_view unit, std::string_view of_keys) {
   const auto at = std::min(unit.find(" or "), unit.size());
   return unit.substr(0, at) == of_keys || (at < unit.size() && unit.substr(at + 4) == of_keys);
+}
+
+// "um", "N/mm2": as in the table, for "µm" (of either letter) and "N/mm^2".
+std::string as_listed(std::string_view unit) {
+  std::string name(unit);
+  for (const auto& [written, listed] :
+       {std::pair{"\u00b5", "u"}, {"\u03bc", "u"}, {"^2", "2"}, {"^3", "3"}}) {
+    if (const auto at = name.find(written); at != name.npos) {
+      name.replace(at, std::string_view(written).size(), listed);
+    }
+  }
+  return name;
 }
 
 }  // namespace
@@ -54,11 +67,13 @@ NumberAndUnit split_unit(std::string_view text) {
 }
 
 std::optional<double> value_in(std::string_view unit, std::string_view text) {
-  const auto [number, given] = split_unit(text);
-  for (const auto& [of_keys, name, power, factor] : named_units) {
+  const auto [number, written] = split_unit(text);
+  const std::string given = as_listed(written);
+  for (const auto& [of_keys, name, power, factor, divisor] : named_units) {
     if (number.empty() || !has_unit(unit, of_keys) || name != given) continue;
     if (factor != 1.0) {
-      return std::strtod(std::string(number).c_str(), nullptr) * factor / std::pow(10.0, -power);
+      const double scale = divisor * std::pow(10.0, -power);
+      return std::strtod(std::string(number).c_str(), nullptr) * factor / scale;
     }
     const std::size_t e = std::min(number.find_first_of("eE"), number.size());
     const int exponent = e < number.size() ? std::atoi(number.data() + e + 1) : 0;

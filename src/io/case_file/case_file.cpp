@@ -136,9 +136,12 @@ class Reader {
       const auto given = given_.find(key.name);
       if (given == given_.end()) continue;
       places[key.name] = given->second.place;
-      make_fractions(given->second.value, read.scene.beam.length);
+      const double length = read.scene.beam.length;
+      const bool in_metres = make_fractions(given->second.value, length);
       if (const auto problem = problem_with(key, given->second.value)) {
-        complain(given->second.place, key.name + " " + *problem);
+        complain(given->second.place,
+                 key.name + " " + *problem +
+                     (in_metres ? fmt::format("; beam.length is {} m", length) : ""));
       } else {
         key.set(read, given->second.value);
       }
@@ -189,13 +192,17 @@ class Reader {
     }
   }
 
-  // Lengths in place of fractions of the beam's length.
-  static void make_fractions(KeyValue& value, double length) {
+  // Fractions of the beam's length in place of lengths; whether there were any.
+  static bool make_fractions(KeyValue& value, double length) {
     auto* placed = std::get_if<PlacedValues>(&value);
-    if (placed == nullptr) return;
+    bool any = false;
+    if (placed == nullptr) return any;
     for (PlacedValues::Entry& entry : placed->entries) {
-      if (std::exchange(entry.in_metres, false)) entry.position /= length;
+      if (!std::exchange(entry.in_metres, false)) continue;
+      entry.position /= length;
+      any = true;
     }
+    return any;
   }
 
   // A stiffness in the unit of the other law.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <sstream>
 
 #include "case/keys/units.h"
@@ -47,6 +48,8 @@ Json number_or_unit_schema(const CaseKey& key) {
   for (std::size_t at = 0; (at = units.find_first_of("^.", at)) != units.npos; at += 2) {
     units.insert(at, "\\");
   }
+  units = std::regex_replace(units, std::regex("\\|u"), "|(u|\u00b5|\u03bc)");
+  units = std::regex_replace(units, std::regex("m([23])"), "m\\^?$1");
   if (!schema["type"].is_array()) schema["type"] = Json{schema["type"]};
   schema["type"].push_back("string");
   std::string words;

@@ -365,7 +365,7 @@ Record<DescribedRun> make_run_record() {
       {"used.shape_interval_s", "time between shapes; 0: none", used(&Used::shape_interval)},
       {"used.n_shape_points", "points of a shape", used(&Used::n_shape_points)},
 
-      {"outcome.kind", "completed, stopped, inaccurate, unstable, chattering, solver_failed or left_validity", outcome(&Outcome::kind)},
+      {"outcome.kind", "completed, stopped, inaccurate, unstable, chattering, solver-failed or left-validity", outcome(&Outcome::kind)},
       {"outcome.time_s", "time reached", outcome(&Outcome::time), Form::from_zero},
       {"outcome.message", "cause and what to do, of a run that did not complete", outcome(&Outcome::message)},
       {"outcome.first_failure_s", "last time at which every check passed, first at which one failed", outcome(&Outcome::first_failure), Form::finite},
@@ -377,7 +377,7 @@ Record<DescribedRun> make_run_record() {
       {"warnings", "warnings about results that passed all checks", result(&Result::warnings)},
 
       {"counts.sub_impacts", "number of sub-impacts", [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},
-      {"counts.parted_by_1_um", "sub-impacts that remain where those parted by less count as one", [](const DescribedRun& run) { return n_parted_by(1e-6, run.result->sub_impacts); }},
+      {"counts.parted_by_1_um", "sub-impacts after which striker and beam part by as much or more", [](const DescribedRun& run) { return n_parted_by(1e-6, run.result->sub_impacts); }},
       {"counts.parted_by_10_um", "the same for 10 um", [](const DescribedRun& run) { return n_parted_by(1e-5, run.result->sub_impacts); }},
       {"counts.zones", "number of zones", [](const DescribedRun& run) { return zones_of(run).size(); }},
       {"counts.subzones", "number of sub-zones", &count_subzones},

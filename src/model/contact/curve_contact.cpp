@@ -1,5 +1,7 @@
 #include "model/contact/curve_contact.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,14 +13,24 @@ namespace {
 constexpr double same_point = 1e-6;  // relative: the last of loading and that of unloading
 constexpr int n_depths = 64;         // at which an unloading to scale is tried
 
-bool rises(const std::vector<double>& values) {
-  return std::ranges::adjacent_find(values, std::greater_equal()) == values.end() &&
-         std::ranges::all_of(values, [](double x) { return std::isfinite(x) && x >= 0.0; });
+// The first point after which the values do not rise, counted from 1; empty: none.
+std::string fall_in(const char* name, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double before = i > 0 ? values[i - 1] : 0.0;
+    if (std::isfinite(values[i]) && (i > 0 ? values[i] > before : values[i] >= 0.0)) continue;
+    return fmt::format("{} {} is {:g}{}", name, i + 1, values[i],
+                       i > 0 ? fmt::format(", after {:g}", before) : "");
+  }
+  return {};
 }
 
-bool is_curve(const MeasuredCurve& curve, std::size_t least) {
-  return curve.indentations.size() >= least && curve.forces.size() == curve.indentations.size() &&
-         rises(curve.indentations) && rises(curve.forces);
+std::string fault_in(const MeasuredCurve& curve, std::size_t least) {
+  const std::size_t n = curve.indentations.size();
+  if (n < least || n != curve.forces.size()) {
+    return fmt::format("there are {} indentations and {} forces", n, curve.forces.size());
+  }
+  const std::string fall = fall_in("indentation", curve.indentations);
+  return fall.empty() ? fall_in("force", curve.forces) : fall;
 }
 
 bool is_same(double a, double b) { return std::abs(a - b) <= same_point * std::abs(b); }
@@ -34,17 +46,26 @@ MeasuredCurve from_zero(MeasuredCurve curve) {
 }  // namespace
 
 std::string fault_of(const MeasuredCurve& loading, const MeasuredCurve& unloading) {
-  if (!is_curve(loading, 1) || loading.indentations.back() == 0.0 ||
-      (loading.forces.front() == 0.0) != (loading.indentations.front() == 0.0)) {
-    return "are no curve of loading; allowed: as many forces as indentations, each list above 0 "
-           "and "
-           "rising (0 and 0 may come first)";
+  std::string fault = fault_in(loading, 1);
+  if (fault.empty() && (loading.indentations.back() == 0.0 ||
+                        (loading.forces.front() == 0.0) != (loading.indentations.front() == 0.0))) {
+    fault = fmt::format("the first point is {:g}, {:g}", loading.indentations.front(),
+                        loading.forces.front());
+  }
+  if (!fault.empty()) {
+    return "are no curve of loading: " + fault +
+           "; allowed: as many forces as indentations, each list above 0 and rising (0 and 0 may "
+           "come first)";
   }
   if (unloading.indentations.empty() && unloading.forces.empty()) return {};
-  if (!is_curve(unloading, 2) || unloading.forces.front() != 0.0) {
-    return "are no curve of unloading; allowed: as many forces as indentations, both rising, with "
-           "the "
-           "force 0 first, at the indentation that remains";
+  fault = fault_in(unloading, 2);
+  if (fault.empty() && unloading.forces.front() != 0.0) {
+    fault = fmt::format("force 1 is {:g}", unloading.forces.front());
+  }
+  if (!fault.empty()) {
+    return "are no curve of unloading: " + fault +
+           "; allowed: as many forces as indentations, both rising, with the force 0 first, at the "
+           "indentation that remains";
   }
   if (!is_same(unloading.indentations.back(), loading.indentations.back()) ||
       !is_same(unloading.forces.back(), loading.forces.back())) {

@@ -74,7 +74,10 @@ std::string verdict(const Result& result) {
                              : "How certain the sub-impacts are is not known",
                      known && result.error_estimate->finer_meshes ? " on this mesh" : "",
                      all == result.contact_over ? "and" : "but",
-                     result.contact_over ? "is over" : "may not be over");
+                     result.contact_over ? "is over"
+                     : result.sub_impacts.empty() || result.sub_impacts.back().end
+                         ? "may not be over"
+                         : "is not over");
 }
 
 // The verdict and what opens below it.

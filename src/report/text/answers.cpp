@@ -278,9 +278,8 @@ Answer dent(const Result& result) {
   if (!(last.residual_indentation > 0.0)) {
     return {"dent", "none", "the contact stays elastic, pressed in by at most " + deepest};
   }
-  const Total depth{last.residual_indentation, last.residual_indentation_error};
   return {"dent",
-          result.error_estimate ? text_of(depth, as_length) : plain_text(depth.value, as_length),
+          total_text(result, "residual_indentation_m", last.residual_indentation, as_length),
           "pressed in by at most " + deepest};
 }
 
@@ -353,6 +352,7 @@ Answer energy(const Result& result) {
     words = fmt::format("+ {} work of loads = {}", with_decimals(unit.per_si * end.work, decimals),
                         words);
   }
+  if (unit.name.starts_with('e')) words = "all in 1" + unit.name + ": " + words;
   return {"energy", with_unit(with_decimals(initial, decimals), unit), words + ", at the end"};
 }
 
@@ -381,7 +381,7 @@ void add_model_errors(const Result& result, std::vector<Answer>& answers) {
                        const Measure& measure) {
     const std::optional<double>& value = errors.value.*figure;
     if (!value) return;
-    answers.push_back({name, text_of({std::abs(*value), errors.error.*figure}, measure),
+    answers.push_back({name, text_of({*value, errors.error.*figure}, measure),
                        part_words(errors, figure, unit_for(std::abs(*value), measure))});
   };
   add("model: parting", &StrikeFigures::parting, as_time);

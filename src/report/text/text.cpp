@@ -97,6 +97,7 @@ std::string error_words(const Result& result) {
     return "errors are not known; without --error-bars=off runs on coarser meshes estimate them";
   }
   const ErrorEstimate& estimate = *result.error_estimate;
+  if (result.sub_impacts.empty() && result.all_certain()) return {};
   return certain_text(result, estimate.largest_error, estimate.first_unresolved, estimate.reason);
 }
 

@@ -100,7 +100,7 @@ void EventLoop::check_step_end() {
   audit_->check(integrator_.time(), integrator_.state());  // a blow-up is called by its name
   throw RunStopped(OutcomeKind::left_validity,
                    "the indentation reached " + options_.end_of_law +
-                       "; reduce striker.velocity or striker.mass, or make the contact stiffer");
+                       " reduce striker.velocity or striker.mass, or make the contact stiffer");
 }
 
 void EventLoop::check_accepted(bool now) {

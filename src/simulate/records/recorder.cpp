@@ -338,8 +338,8 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
   follow_deformation(y);
   if (in_contact_) {
     close_sub_impact(time, y, beam);
-  } else if (const NearMiss* nearest = near_misses_.nearest()) {
-    result_.closest_approach = {nearest->time, nearest->margin, {}};
+  } else {
+    result_.closest_approach = near_misses_.closest(time, y, beam);
   }
   near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
   for (const SubImpact& sub_impact : result_.sub_impacts) {

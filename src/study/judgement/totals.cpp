@@ -55,6 +55,7 @@ const Quantity quantities[] = {
     {"impulse_Ns", [](Run run, double) { return run.impulse(); }},
     {"peak_force_N", [](Run run, double) { return run.max_force; }, safety_of_largest},
     {"max_indentation_m", [](Run run, double) { return run.max_indentation; }, safety_of_largest},
+    {"residual_indentation_m", [](Run run, double) { return run.sub_impacts.empty() ? NAN : run.sub_impacts.back().residual_indentation; }},
     {"max_displacement_m", [](Run run, double) { return run.peaks.displacement.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::displacement, &EnvelopeRow::displacement},
     {"max_moment_Nm", [](Run run, double) { return run.peaks.moment.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::moment, &EnvelopeRow::moment},
     {"max_strain", [](Run run, double) { return run.peaks.strain.largest; }, usual_safety, From::shapes, largest_error_of_strain, &FieldPeaks::strain, &EnvelopeRow::strain},
@@ -133,6 +134,11 @@ double excess_elsewhere(const Case& input, const Result& run, std::span<const Ru
     excess = std::max(excess, here + factor * std::abs(here - same) - largest);
   }
   return excess;
+}
+
+// The same time is known no better as a bound of a zone than as one of a sub-impact.
+void widen(Total& total, const std::optional<double>& error) {
+  if (total.error && error) total.error = std::max(*total.error, *error);
 }
 
 double end_of(const ZoneSummary& zone, const Result& run) {
@@ -221,6 +227,8 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
     estimate.zones.push_back({total([](Zone z, Run) { return z.start; }), total(end_of),
                               total([](Zone z, Run) { return z.impulse; }),
                               count_of(zone, run, beside, estimate)});
+    widen(estimate.zones.back().start, zone.start_error);
+    widen(estimate.zones.back().end, zone.end_error);
   }
   Total count = sum_of_counts(estimate.zones);
   if (run.sub_impacts.empty() && estimate.first_unresolved) count.error = 1.0;

@@ -11,6 +11,7 @@
 namespace subimpact {
 
 constexpr int fewest_cells = 60;
+constexpr double most_excess = 20.0;  // of their work over the one wanted
 
 Case coarse_case(const Case& input, int cells, double end) {
   Case coarse = input;
@@ -38,22 +39,22 @@ Case coarse_case(const Case& input, int cells, double end) {
 }
 
 int affordable_cells(const Case& input, double end, int most, double work) {
-  int cells = most;
-  for (; cells > fewest_cells; cells = 7 * cells / 10) {
+  double needed = 0.0;
+  for (int cells = most;; cells = 7 * cells / 10) {
     try {
       const ResolvedSettings used = resolve(coarse_case(input, cells, end)).settings();
       const double steps = end / used.step.value_or(used.critical_step);
-      if (steps * static_cast<double>(used.n_unknowns) <= work) break;
-    } catch (const InvalidCase&) {
-      continue;  // the run says so
+      needed = steps * static_cast<double>(used.n_unknowns);
+      if (needed <= work) return cells;
+    } catch (const InvalidCase&) {  // the run says so
     }
+    if (cells <= fewest_cells) return needed <= most_excess * work ? cells : 0;
   }
-  return cells;
 }
 
-std::optional<Result> coarse_run(const Case& input) {
+std::optional<Result> coarse_run(const Case& input, const Progress& progress) {
   try {
-    return simulate(input);
+    return simulate(input, progress);
   } catch (const InvalidCase&) {  // of numbers that only such a mesh cannot hold
     return std::nullopt;
   }

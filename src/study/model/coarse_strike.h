@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "subimpact/case/case.h"
+#include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {
@@ -17,11 +18,11 @@ inline constexpr double hair_opening = 1e-6;
 Case coarse_case(const Case& input, int cells, double end);
 
 /// The most cells, up to `most`, with which such a run keeps to the work, in unknowns times steps;
-/// at least some 50.
+/// at least some 50; 0 where these would take 20 times as much.
 int affordable_cells(const Case& input, double end, int most, double work);
 
 /// Nothing where the case cannot be run.
-std::optional<Result> coarse_run(const Case& input);
+std::optional<Result> coarse_run(const Case& input, const Progress& progress = {});
 
 StrikeFigures figures_of(const Result& result);
 

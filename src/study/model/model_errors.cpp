@@ -145,12 +145,15 @@ double opening_near(double time, const Result& run) {
 
 class Study {
  public:
-  Study(const Case& input, const Result& result) : input_(input), result_(result) {
+  Study(const Case& input, const Result& result, const Progress& progress)
+      : input_(input), result_(result), progress_(progress) {
     errors_.value = figures_of(result);
     if (!yields(result)) errors_.value.permanent_set.reset();
+    if (input.scene.striker.fixed) errors_.value.striker_velocity.reset();
   }
 
-  ModelErrors errors() {
+  /// Nothing where it is stopped.
+  std::optional<ModelErrors> errors() {
     add_variants();
     add_estimates();
     add_openings();
@@ -161,14 +164,16 @@ class Study {
         errors_.error.*figure = (errors_.error.*figure).value_or(0.0) + *(part.change.*figure);
       }
     }
-    return std::move(errors_);
+    return is_stopped_ ? std::nullopt : std::optional(std::move(errors_));
   }
 
  private:
   const StrikeFigures& value() const { return errors_.value; }
 
-  std::optional<Result> on_cells(const Case& of, double end) const {
-    std::optional<Result> run = coarse_run(coarse_case(of, cells_, end));
+  std::optional<Result> on_cells(const Case& of, double end) {
+    if (cells_ == 0 || is_stopped_) return std::nullopt;
+    std::optional<Result> run = coarse_run(coarse_case(of, cells_, end), progress_);
+    is_stopped_ = run && run->outcome.kind == OutcomeKind::stopped;
     return run && run->outcome.completed() ? std::move(run) : std::nullopt;
   }
 
@@ -201,7 +206,7 @@ class Study {
   }
 
   // The largest rotation (rad) and displacement (m) up to the time at which a figure is decided.
-  std::pair<double, double> deformation_at(Figure figure) const {
+  std::pair<double, double> deformation_at(Figure figure) {
     std::optional<Result> run;
     if (figure == &StrikeFigures::parting && value().parting) {
       run = on_cells(input_, *value().parting);
@@ -250,20 +255,23 @@ class Study {
 
   const Case& input_;
   const Result& result_;
+  const Progress& progress_;
   ModelErrors errors_;
-  int cells_ = most_cells;
+  int cells_ = most_cells;  // 0: any are too dear
+  bool is_stopped_ = false;
   double change_of_opening_ = 0.0;  // m, of the parting
 };
 
 }  // namespace
 
-std::optional<ModelErrors> model_errors(const Case& input, const Result& result) {
+std::optional<ModelErrors> model_errors(const Case& input, const Result& result,
+                                        const Progress& progress) {
   const CaseParts& own = input.parts;
   if (own.mesh || own.contact_law || own.section || own.start || result.sub_impacts.empty() ||
       !descriptor_of(input.model.mesh).bends || !result.outcome.completed()) {
     return std::nullopt;
   }
-  return Study(input, result).errors();
+  return Study(input, result, progress).errors();
 }
 
 }  // namespace subimpact

@@ -192,6 +192,9 @@ TEST(Units, StandForTheSameDoublesAsNumbersInSI) {
                                                {"beam.length", "0.7112", "28 in"},
                                                {"beam.length", "0.7112", "28 inch"},
                                                {"beam.length", "0.7112", "711200000 nm"},
+                                               {"beam.length", "0.7112", "711200 \u00b5m"},
+                                               {"beam.length", "0.7112", "711200 \u03bcm"},
+                                               {"beam.youngs_modulus", "71.96e9", "71960 N/mm^2"},
                                                {"striker.mass", "0.201", "201000 mg"},
                                                {"striker.mass", "0.201", "201 g"},
                                                {"beam.youngs_modulus", "71.96e9", "71.96 GPa"},
@@ -213,6 +216,9 @@ TEST(Units, StandForTheSameDoublesAsNumbersInSI) {
   const LoadedCase bare =
       read_case_text(small_case_text(), "case.toml", {parse_override("time.end=8 ms")});
   EXPECT_EQ(bare.value.end_time, 8e-3);
+  const LoadedCase car =
+      read_case_text(small_case_text(), "case.toml", {parse_override("striker.velocity=18 km/h")});
+  EXPECT_EQ(car.value.scene.striker.velocity, 5.0);
   const LoadedCase pound =
       read_case_text(small_case_text(), "case.toml", {parse_override("striker.mass=1 lb")});
   EXPECT_EQ(pound.value.scene.striker.mass, 0.45359237);

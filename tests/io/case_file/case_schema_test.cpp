@@ -186,6 +186,8 @@ TEST(CaseSchema, RefusesWhatACaseFileRefuses) {
   EXPECT_EQ(fault_in(small_case_with("0.7112", "\"0,7112\"")), "case.beam.length: pattern");
   EXPECT_EQ(fault_in(small_case_with("0.7112", "\"711.2 mm\"")), "");
   EXPECT_EQ(fault_in(small_case_with("0.7112", "\"711.2 kg\"")), "case.beam.length: pattern");
+  EXPECT_EQ(fault_in(small_case_with("0.7112", "\"711200 \u00b5m\"")), "");
+  EXPECT_EQ(fault_in(small_case_with("71.96e9", "\"71960 N/mm^2\"")), "");
   EXPECT_EQ(fault_in(small_case_with("0.7112", "0")), "case.beam.length: range");
   EXPECT_EQ(fault_in(small_case_text() + "[model]\nlayers = 41\n"), "case.model.layers: range");
   EXPECT_EQ(fault_in(small_case_text() + "[model]\nmesh = \"fine\"\n"), "case.model.mesh: choice");

@@ -1,6 +1,7 @@
 // A contact law from measured points: the curve, its energies, loading and unloading.
 
 #include "model/contact/curve_contact.h"
+#include <fmt/format.h>
 #include <cmath>
 #include "testing.h"
 
@@ -85,10 +86,14 @@ TEST(ACurveContact, RefusesPointsThatAreNone) {
   apart.forces.back() *= 1.01;
   EXPECT_EQ(fault_of(good, {}), "");
   EXPECT_EQ(fault_of(good, straight_back(good)), "");
-  for (const MeasuredCurve& bad : {falls, short_list, MeasuredCurve{}}) {
-    expect_in(fault_of(bad, {}), "no curve of loading");
+  const std::string fall = fmt::format("force 3 is {0:g}, after {0:g}", good.forces[1]);
+  for (const auto& [bad, fault] : {std::pair(falls, fall),
+                                   {short_list, "there are 5 indentations and 4 forces"},
+                                   {MeasuredCurve{}, "there are 0 indentations and 0 forces"},
+                                   {{{1.0}, {0.0}}, "the first point is 1, 0"}}) {
+    expect_in(fault_of(bad, {}), "no curve of loading", fault);
   }
-  expect_in(fault_of(good, falls), "no curve of unloading");
+  expect_in(fault_of(good, falls), "no curve of unloading", fall);
   expect_in(fault_of(good, apart), "the same last point");
   // Unloading above the loading.
   const MeasuredCurve bent = sampled(3.0, 8);

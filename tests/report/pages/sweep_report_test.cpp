@@ -27,7 +27,7 @@ SweptRuns three_runs() {
 }
 
 TEST(SweepReport, StatesFirstWhatIsCertainAndWhatIsNot) {
-  const std::string page = sweep_report(three_runs(), "here");
+  const std::string page = sweep_report(three_runs(), "here", "base.toml");
   expect_in(page, "count and order of the sub-impacts in 1 of 3 runs.",
             "the counts of 1 run, which the map marks with a cross",
             "1 run with the outcome &quot;&lt;/script&gt;&quot;",
@@ -37,11 +37,11 @@ TEST(SweepReport, StatesFirstWhatIsCertainAndWhatIsNot) {
 TEST(SweepReport, OfRunsWithoutErrorBarsStatesThatNoCountIsCertain) {
   SweptRuns runs = three_runs();
   runs.columns.pop_back();
-  expect_in(sweep_report(runs, "here"), "the sweep was made without error bars");
+  expect_in(sweep_report(runs, "here", "base.toml"), "the sweep was made without error bars");
 }
 
 TEST(SweepReport, NeedsNothingFromOutsideAndShowsNamesAsText) {
-  const std::string page = sweep_report(three_runs(), "a\"<script>`b`\n'c'");
+  const std::string page = sweep_report(three_runs(), "a\"<script>`b`\n'c'", "base.toml");
   expect_in(page, "<h1>Sweep: a&quot;&lt;script&gt;`b`\n'c'</h1>");
   // The page's own scripts and its data, none that a name brings in or ends.
   const std::size_t n_scripts =
@@ -56,7 +56,7 @@ TEST(SweepReport, LeavesOutSubImpactsOfHugeSweepsAndStatesIt) {
   runs.sub_impacts[0].resize(79'999);
   runs.sub_impacts[1].resize(2);
   runs.sub_impacts[2].resize(1);
-  const std::string page = sweep_report(runs, "here");
+  const std::string page = sweep_report(runs, "here", "base.toml");
   expect_in(page, "the sub-impacts of 1 run are left out; sub_impacts.csv has them",
             "\"counts\":[79999,-1,1]");
   EXPECT_LT(page.size(), 6e6);
@@ -123,7 +123,7 @@ TEST(SweepReport, OfDamagedTablesIsAMessageOrAWholePage) {
     std::ofstream(directory.path / "sub_impacts.csv")
         << (first ? sub_impacts : damaged(sub_impacts, random));
     try {
-      const std::string page = sweep_report(read_sweep(directory.path), "here");
+      const std::string page = sweep_report(read_sweep(directory.path), "here", "base.toml");
       const std::string mark = "id=\"data\">";
       const std::size_t from = page.find(mark) + mark.size();
       const auto json =

@@ -59,10 +59,10 @@ Result scaled_sample(double scale, std::size_t n_certain) {
   scaled(result.max_indentation, scale);
   result.used.initial_energy = 25.0 * cube;
   for (auto& [name, total] : result.error_estimate->totals) {
-    const double by = name == "impulse_Ns"          ? cube
-                      : name == "peak_force_N"      ? square
-                      : name == "max_indentation_m" ? scale
-                                                    : 1.0;
+    const double by = name == "impulse_Ns"              ? cube
+                      : name == "peak_force_N"          ? square
+                      : name.ends_with("indentation_m") ? scale
+                                                        : 1.0;
     scaled(total.value, by);
     scaled(total.error, by);
   }

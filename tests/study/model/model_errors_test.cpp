@@ -57,6 +57,23 @@ TEST(ModelErrors, OfStretchingIsTheTensionOverTheBucklingLoad) {
                    half * half * std::abs(result.striker_velocity));
 }
 
+TEST(ModelErrors, TakeNoMoreThanTheyAreWorth) {
+  Case input = elastic_case(0.6e-3);
+  Result result = simulate(input);
+  input.end_time *= 1e4;  // only its own run was cheap
+  const auto errors = model_errors(input, result);
+  ASSERT_TRUE(errors);
+  EXPECT_FALSE(part_of(*errors, "shear")->change.parting);
+}
+
+TEST(ModelErrors, AreNoneWhereTheRunIsToEnd) {
+  const Case input = elastic_case(0.6e-3);
+  int n_asked = 0;
+  const auto stop = [&](double) { return ++n_asked < 3; };
+  EXPECT_FALSE(model_errors(input, simulate(input), stop));
+  EXPECT_LT(n_asked, 5);
+}
+
 TEST(ModelErrors, AreNoneOfRigidBeamsAndWithoutContact) {
   Case input = elastic_case(0.6e-3);
   Result untouched = simulate(input);
