@@ -188,8 +188,7 @@ def test_a_map_has_the_number_of_every_cell_and_tells_one_from_two():
 
 def test_what_a_figure_does_not_draw_is_refused_with_what_it_draws(run):
     for draw, source, words in ((plot.sweep_map, run, "sweep_map.. has a Result; allowed: the runs of a sweep"),
-                                (plot.response, si.Case(), "response.. has a Case; allowed: a subimpact.Result"),
-                                (plot.outcomes, None, "has a NoneType; allowed: a table")):
+                                (plot.response, si.Case(), "response.. has a Case; allowed: a subimpact.Result")):
         with pytest.raises(TypeError, match=words):
             draw(source)
 

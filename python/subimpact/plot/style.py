@@ -92,11 +92,10 @@ def figure(mosaic: Any, height: float = 4.6, **options: Any) -> Callable[[Draw],
 
         @functools.wraps(draw)
         def drawn(source: Any, axes: Any = None, *more: Any, **named: Any) -> Any:
-            is_table = isinstance(source, Mapping) or hasattr(source, "columns")
-            if not {"result": isinstance(source, Result), "tables": True}.get(takes, is_table):
+            is_fit = {"result": isinstance(source, Result), "runs": isinstance(source, Mapping) or hasattr(source, "columns")}
+            if not is_fit.get(takes, True):
                 kinds = {"result": "a subimpact.Result", "runs": "the runs of a sweep, sweep.runs"}
-                raise TypeError(f"{draw.__name__}() has a {type(source).__name__}; allowed: "
-                                f"{kinds.get(takes, 'a table')}")
+                raise TypeError(f"{draw.__name__}() has a {type(source).__name__}; allowed: {kinds[takes]}")
             if axes is not None:
                 draw(source, axes, *more, **named)
                 return axes

@@ -312,14 +312,15 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
       "beam.theory = \"timoshenko\"",
       thickness);
   add(!is_rigid && is_held && set / beam.height() > largest_deflection,
-      "the struck point moves by {:.3g} mm, {:.2g} of the thickness, on a beam held at both ends: "
+      "the struck point moves by {:.3g} mm, {:.2g} times the thickness, on a beam held at both "
+      "ends: "
       "if its supports cannot approach each other, stretching, which the model leaves out, "
       "stiffens it",
       mm * set, set / beam.height());
   add_pulls(beam, result, sentences);
   if (!nose) return sentences;
   add(indentation / *nose > deepest_indentation,
-      "the indentation reaches {:.3g} mm, {:.2g} of the nose radius: contact laws are for small "
+      "the indentation reaches {:.3g} mm, {:.3g} of the nose radius: contact laws are for small "
       "indentations (below {} of it)",
       mm * indentation, indentation / *nose, deepest_indentation);
   const GapRadii radii = gap_radii(input.scene);

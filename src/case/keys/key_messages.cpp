@@ -105,6 +105,10 @@ std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
   if (const std::string meant = nearest_name(*text, key.choice_names()); !meant.empty()) {
     return "; did you mean " + in_quotes(meant) + "?";
   }
+  if (*text == "inf") return "; write it without quotes";
+  if (key.name.ends_with(".position") && value_in("m", *text)) {
+    return "; write the fraction of the beam's length";
+  }
   const std::string hint = key.type == KeyType::number ? decimal_comma_hint(*text) : "";
   if (const std::string_view unit = split_unit(*text).unit; hint.empty() && !unit.empty()) {
     const std::string units = units_beside(key.unit);

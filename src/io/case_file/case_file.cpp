@@ -368,8 +368,9 @@ std::string malformed(const std::string& text, const std::string& name,
   const std::string place = fmt::format("{}:{}:{}: not valid TOML: ", name, at.line, at.column);
   const std::string number = misspelt_number_in(text, at.line);
   if (!number.empty()) return place + number;
-  return fmt::format("{}{}; correct this line (a setting is written key = value, a table [name])",
-                     place, error.description());
+  const bool is_open = error.description().find("control characters") != std::string_view::npos;
+  return fmt::format("{}{}{}; correct this line (a setting is written key = value, a table [name])",
+                     place, error.description(), is_open ? " (is a closing quote missing?)" : "");
 }
 
 }  // namespace

@@ -222,7 +222,7 @@ Answer permanent_set(const Case& input, const Result& result) {
         has_tip && is_tip ? "the tip" : fmt::format("{:.4g} m", most.position);
     const double set = std::abs(most.set_from_supports);
     const double error = error_of_total(result, "permanent_set_m").value_or(0.0);
-    answer.value = set < error ? "below " + rough_text({error, 0.0}, as_length)
+    answer.value = set < error ? "below " + rough_text({set + error, 0.0}, as_length)
                                : total_text(result, "permanent_set_m", set, as_length);
     answer.note =
         fmt::format("at {}, against the {}; largest plastic hinge {} at {:.4g} m", place,
@@ -256,19 +256,19 @@ void add_reactions(const Result& result, std::vector<Answer>& answers) {
   const auto& last = result.reactions.back();
   if (!first && !last) return;
   const bool has_errors = result.error_estimate.has_value();
-  const auto words = [&](auto extreme, double sense, const char* name) {
+  const auto words = [&](auto extreme, double sense) {
     const bool at_first =
         first && (!last || sense * ((*first).*extreme).value >= sense * ((*last).*extreme).value);
     const auto& [force, time] = (at_first ? *first : *last).*extreme;
-    const bool has_total = sense * force > 0.0 && has_errors;
+    const char* name = force > 0.0 ? "reaction_along_N" : "reaction_against_N";
     return fmt::format("{} at x = {} at {}",
-                       has_total ? text_of({force, error_of_total(result, name)}, as_force)
-                                 : rough_text({force, {}}, as_force),
+                       has_errors ? text_of({force, error_of_total(result, name)}, as_force)
+                                  : rough_text({force, {}}, as_force),
                        at_first ? "0" : "length", time_text(time, 4));
   };
-  answers.push_back({"supports", words(&EnvelopeRow::Range::smallest, -1.0, "reaction_against_N"),
+  answers.push_back({"supports", words(&EnvelopeRow::Range::smallest, -1.0),
                      "least force on the beam, positive along the strike; largest " +
-                         words(&EnvelopeRow::Range::largest, 1.0, "reaction_along_N")});
+                         words(&EnvelopeRow::Range::largest, 1.0)});
 }
 
 Answer dent(const Result& result) {
@@ -349,8 +349,8 @@ Answer energy(const Result& result) {
                     with_decimals((std::round(sum * power) - before) / power, decimals), names);
   }
   if (end.work != 0.0) {
-    words = fmt::format("+ {} work of loads = {}", with_decimals(unit.per_si * end.work, decimals),
-                        words);
+    words = fmt::format("{} {} work of loads = {}", end.work < 0.0 ? '-' : '+',
+                        with_decimals(std::abs(unit.per_si * end.work), decimals), words);
   }
   if (unit.name.starts_with('e')) words = "all in 1" + unit.name + ": " + words;
   return {"energy", with_unit(with_decimals(initial, decimals), unit), words + ", at the end"};

@@ -28,7 +28,7 @@ constexpr const char* spoilt_cases[][3] = {
     {"[beam]", "output = { interval = 1us, shapes = 0 }\n[beam]", "1:|1 us is a value with a unit"},
     {"length = 0.7112", "length = '711.2 kg'",
      R"(2:1: |("711.2 kg")|"kg" is none of its units: m, mm)"},
-    {"mass = 0.201", "mass = 0.201\nposition = '0.5 m'", "9:1: |write the number without a unit"},
+    {"mass = 0.201", "mass = 0.201\nposition = '0.5 m'", "9:1: |write the fraction of the beam's length"},
     {"", "[model]\nsegments = '501 cells'", R"(14:1: |("501 cells")|a whole number)"},
     {"velocity = 15.9", "velocity = '15.9 M/S'", R"(|"M/S" is none of its units: m/s, mm/s)"},
     {"mass = 0.201", "mass = '-201 g'", "|striker.mass is -0.201|above 0 (kg)"},
