@@ -83,16 +83,16 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
     const std::size_t n_before = std::clamp(n_certain, from, to);
     return Total{static_cast<double>(to - from), static_cast<double>(to - n_before)};
   };
-  estimate.totals = {{"sub_impacts", count(0, n)},
-                     {"zones", {2.0, 0.0}},
-                     {"striker_velocity_m_per_s", {result.striker_velocity, 6.4e-4}},
-                     {"beam_mean_velocity_m_per_s", {result.beam_mean_velocity, 5.7e-4}},
-                     {"restitution", {0.0, 7.6e-5}},
-                     {"impulse_Ns", {0.3, 1.1e-3}},
-                     {"peak_force_N", {result.max_force, 0.43}},
-                     {"max_indentation_m", {result.max_indentation, 8e-9}},
-                     {"residual_indentation_m",
-                      {result.sub_impacts.back().residual_indentation, 9e-7}}};
+  estimate.totals = {
+      {"sub_impacts", count(0, n)},
+      {"zones", {2.0, 0.0}},
+      {"striker_velocity_m_per_s", {result.striker_velocity, 6.4e-4}},
+      {"beam_mean_velocity_m_per_s", {result.beam_mean_velocity, 5.7e-4}},
+      {"restitution", {0.0, 7.6e-5}},
+      {"impulse_Ns", {0.3, 1.1e-3}},
+      {"peak_force_N", {result.max_force, 0.43}},
+      {"max_indentation_m", {result.max_indentation, 8e-9}},
+      {"residual_indentation_m", {result.sub_impacts.back().residual_indentation, 9e-7}}};
   estimate.zones = {{{0.0, 0.0}, {0.6e-3, 0.26e-6}, {0.2, 5.3e-4}, count(0, 2)},
                     {{5e-3, 0.26e-6}, {result.outcome.time, 0.0}, {0.1, 5.2e-4}, count(2, 3)}};
   result.error_estimate = estimate;

@@ -210,6 +210,11 @@ std::string_view name_of(EndSupport end) {
   return end == EndSupport::free ? "free" : end == EndSupport::pinned ? "pinned" : "clamped";
 }
 
+Json place_of(const Gauge& gauge) {
+  return fmt::format("x = {:.4g} l, {}", gauge.position,
+                     gauge.face == Face::back ? "back" : "front");
+}
+
 }  // namespace
 
 PageData page_data(const Case& input, const Result& result, const Json& overlay) {
@@ -264,11 +269,7 @@ PageData page_data(const Case& input, const Result& result, const Json& overlay)
                })},
       {"overlay", overlay},
       {"history", history_json(history, input.output)},
-      {"gauges", list_of(input.output.gauges,
-                         [](const Gauge& gauge) -> Json {
-                           return fmt::format("x = {:.4g} l, {}", gauge.position,
-                                              gauge.face == Face::back ? "back" : "front");
-                         })},
+      {"gauges", list_of(input.output.gauges, place_of)},
       {"meanings", meanings_of_columns(input.output)}};
   add_shapes(json, data, input, result);
   data.json = within_script(json);
