@@ -47,13 +47,13 @@ TEST(LargeDeflections, AreDoubtedOnBeamsHeldAtBothEnds) {
   Case input = plain_case();
   input.end_time = 2e-3;
   input.scene.striker.velocity = 4.0;
-  EXPECT_FALSE(warns_of(input, "of the thickness"));  // a free beam moves away
+  EXPECT_FALSE(warns_of(input, "times the thickness"));  // a free beam moves away
   input.scene.beam.ends = {pinned, free_end};
-  EXPECT_FALSE(warns_of(input, "of the thickness"));
+  EXPECT_FALSE(warns_of(input, "times the thickness"));
   input.scene.beam.ends = {pinned, pinned};
-  EXPECT_TRUE(warns_of(input, "of the thickness, on a beam held at both ends"));
+  EXPECT_TRUE(warns_of(input, "times the thickness, on a beam held at both ends"));
   input.scene.striker.velocity = 0.4;
-  EXPECT_FALSE(warns_of(input, "of the thickness"));
+  EXPECT_FALSE(warns_of(input, "times the thickness"));
 }
 
 TEST(DeepIndentations, AreDoubted) {
