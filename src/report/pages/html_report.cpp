@@ -182,10 +182,10 @@ bool is_still(const std::string& svg) {
   return svg.starts_with("<") && svg.find("<svg") != svg.npos && !std::regex_search(svg, active);
 }
 
-/// What Python found of a measured force.
-struct Measured {
-  Json section = nullptr;  ///< of the page
-  Json forces = nullptr;   ///< for its chart
+/// What Python found of a measured force. Moves of Json throw nothing.
+struct Measured {  // NOLINT(bugprone-exception-escape)
+  Json section;    ///< of the page
+  Json forces;     ///< for its chart
   DrawnFigures::Figure figure;
 };
 
@@ -236,8 +236,8 @@ DrawnFigures read_figures(const std::filesystem::path& directory, const std::str
                   figures.left_out.push_back(name + ": has no SVG file, or one that was changed");
                 }
               }
-              for (const std::string reason : json.at("left_out")) {
-                figures.left_out.push_back(reason);
+              for (const auto& reason : json.at("left_out")) {
+                figures.left_out.push_back(reason.template get<std::string>());
               }
             });
   return figures;

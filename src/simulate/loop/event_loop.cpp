@@ -28,7 +28,7 @@ ContactBranch branch_after(EventKind kind) {
 }  // namespace
 
 EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, Audit& audit,
-                     LoopOptions options)
+                     const LoopOptions& options)
     : beam_(beam),
       integrator_(integrator),
       observer_(&observer),

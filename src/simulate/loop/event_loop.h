@@ -61,7 +61,7 @@ struct LoopOptions {
 class EventLoop {
  public:
   EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, Audit& audit,
-            LoopOptions options);
+            const LoopOptions& options);
 
   /// Puts the beam at the first touch, with the contact just begun, or at t = 0 apart.
   void start();
