@@ -22,8 +22,8 @@ struct SectionDescriptor {
 std::span<const SectionDescriptor> sections();
 const SectionDescriptor& descriptor_of(SectionKind kind);
 
-/// The beam that a run has: the case's, where it is a plane so stiff that each sub-impact is a zone
-/// by itself, and with sizes (SI units of 1) in place of those it has not; nothing depends on them.
+/// The beam that a run has: the case's; a plane so stiff that each sub-impact is a zone by itself,
+/// and with sizes for its picture in place of those it has not: nothing else depends on them.
 Beam sized_beam(const Case& input);
 bool may_yield(const Case& input);
 

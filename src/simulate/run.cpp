@@ -179,15 +179,19 @@ LoopOptions loop_options(const RunParts& parts) {
   const ContactLaw& law = parts.beam.contact().law();
   // A spring may be a pad or a bumper, thicker than the beam.
   const bool is_spring = law.scales().exponent == 1.0 && std::isinf(law.yield_threshold({}));
-  loop.largest_indentation = is_spring ? HUGE_VAL : parts.problem.beam.height();
+  // Of a plane only the law that models its columns knows the thickness.
+  const bool on_plane = parts.problem.beam.fixed && law.name() != "foundation";
+  loop.largest_indentation = is_spring || on_plane ? HUGE_VAL : parts.problem.beam.height();
   if (const double deepest = law.largest_indentation(); deepest < loop.largest_indentation) {
     loop.largest_indentation = deepest;
-    const std::string why =
-        law.name() == "curve"
-            ? "the last point of contact.curve_indentation; add points to it and to "
-              "contact.curve_force, or"
-            : "where the contact is as wide as the law \"" + law.name() + "\" allows on this beam;";
-    loop.end_of_law = fmt::format("{:.4g} mm, {}", mm * deepest, why);
+    const bool is_measured = law.name() == "curve";
+    loop.end_of_law = fmt::format("{:.4g} mm, {}", mm * deepest,
+                                  is_measured ? "the last point of contact.curve_indentation"
+                                              : "where the contact is as wide as the law \"" +
+                                                    law.name() + "\" allows on this beam");
+    if (is_measured) {
+      loop.remedy = "add points to it and to contact.curve_force, or " + loop.remedy;
+    }
   }
   loop.audit_interval = descriptor_of(given.solver.method).audit_interval;
   loop.shortest_contact = M_PI / used.joined_frequency;

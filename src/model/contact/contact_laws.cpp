@@ -176,9 +176,15 @@ constexpr const char* rigid_plane =
     "with contact.stiffness, \"curve\", and with contact.striker_modulus and "
     "contact.striker_poisson \"sphere\" or \"hertz\" with contact.indentation = \"half-space\"";
 
+constexpr const char* no_thickness =
+    "the law follows the thickness of what is struck, and the plane has no size; allowed: "
+    "beam.thickness and beam.width, or contact.law = \"hertz\" or \"sphere\" with "
+    "contact.indentation = \"half-space\"";
+
 // Why there is no mid-plane to measure from; empty where there is.
 std::string why_no_mid_plane(const Scene& scene, GapRadii radii) {
   if (is_rigid_plane(scene.beam)) return rigid_plane;
+  if (scene.beam.height() == 0.0) return no_thickness;
   if (scene.beam.gap().area() > 0.0) {
     return "the indentation is measured from the mid-plane, and this section is hollow; allowed: "
            "contact.law = \"sphere\" or \"hertz\" with contact.indentation = \"half-space\"";
@@ -188,6 +194,7 @@ std::string why_no_mid_plane(const Scene& scene, GapRadii radii) {
 
 std::string why_no_columns(const Scene& scene, GapRadii /*radii*/) {
   if (is_rigid_plane(scene.beam)) return rigid_plane;
+  if (scene.beam.height() == 0.0) return no_thickness;
   if (scene.beam.gap().area() <= 0.0) return {};
   return "columns through the whole height carry the contact, and this section is hollow; allowed: "
          "contact.law = \"sphere\" or \"hertz\", which have their own stiffness";

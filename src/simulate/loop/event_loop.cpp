@@ -99,8 +99,7 @@ void EventLoop::check_step_end() {
   if (!(indentation_.lambda1 >= options_.largest_indentation)) return;
   audit_->check(integrator_.time(), integrator_.state());  // a blow-up is called by its name
   throw RunStopped(OutcomeKind::left_validity,
-                   "the indentation reached " + options_.end_of_law +
-                       " reduce striker.velocity or striker.mass, or make the contact stiffer");
+                   "the indentation reached " + options_.end_of_law + "; " + options_.remedy);
 }
 
 void EventLoop::check_accepted(bool now) {

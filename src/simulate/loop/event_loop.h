@@ -42,7 +42,8 @@ struct LoopOptions {
   /// histories of sections advance at step ends only.
   double correction_tolerance = std::numeric_limits<double>::infinity();
   double largest_indentation = 0.0;  ///< m; the contact law is not valid beyond it
-  std::string end_of_law = "the beam's thickness, where the contact law ends;";
+  std::string end_of_law = "the beam's thickness, where the contact law ends";
+  std::string remedy = "reduce striker.velocity or striker.mass, or make the contact stiffer";
   /// Steps between two full checks of energy and momentum; events and history rows are checked too.
   long audit_interval = 32;
   /// s: the shortest time that a contact takes. Many more events than fit into it are chattering.

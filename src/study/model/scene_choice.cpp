@@ -171,7 +171,7 @@ bool law_ends(const Case& input) {
   try {
     const double end = end_after(longest_horizon, input);
     const int cells = affordable_cells(input, end, cells_to_choose, most_work);
-    return left_validity(coarse_run(coarse_case(input, cells, end)));
+    return cells > 0 && left_validity(coarse_run(coarse_case(input, cells, end)));
   } catch (const InvalidCase&) {
     return false;
   }
@@ -188,6 +188,7 @@ ShearTest test_shear(const Case& without, const Case& with) {
   }
   for (;; end = std::min(growth_of_horizon * end, with.end_time)) {
     const int cells = affordable_cells(with, end, cells_to_choose, most_work);
+    if (cells == 0) return not_tested;
     const auto a = coarse_run(coarse_case(without, cells, end));
     const auto b = coarse_run(coarse_case(with, cells, end));
     if (left_validity(a) || left_validity(b)) return {Shear::law_ends, {}};

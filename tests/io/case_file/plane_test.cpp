@@ -42,6 +42,24 @@ TEST(APlane, WithoutAModulusIsRigidUnderASphereThatHasOne) {
               1e-6 * result.sub_impacts[0].peak_force);
 }
 
+TEST(APlane, WithoutASizeTakesNoLawThatFollowsIts) {
+  const std::string strike =
+      "striker.velocity = 1\nstriker.nose_radius = 0.02\nbeam.youngs_modulus = 2e11\n"
+      "beam.poisson = 0.3\n";
+  for (const char* law :
+       {"\"foundation\"", "\"line\"", "\"sphere\"\ncontact.indentation = \"mid-plane\""}) {
+    expect_in(
+        answer_of<CaseFileError>([&] { struck_plane(strike + "contact.law = " + law + "\n"); }),
+        "the plane has no size");
+  }
+}
+
+TEST(APlane, WithoutASizeSetsNoLimitToAnIndentation) {
+  const Result result = completed(
+      struck_plane("striker.velocity = 1000\ncontact.law = \"hertz\"\ncontact.stiffness = 1e8\n"));
+  EXPECT_GT(result.max_indentation, 0.06);
+}
+
 TEST(APlane, WithoutAModulusTakesNoLawThatNeedsOne) {
   const std::string strike = "striker.velocity = 1\nstriker.nose_radius = 0.02\n";
   const std::string of_nose = "contact.striker_modulus = 2e11\ncontact.striker_poisson = 0.3\n";
