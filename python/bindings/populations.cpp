@@ -12,15 +12,10 @@
 namespace subimpact::python {
 namespace {
 
-// The number that a text with a unit stands for, unless the unit depends on the contact law.
+// A stiffness has the unit of its law, which a sweep may change: its unit is refused.
 KeyValue in_si(const CaseKey& key, KeyValue value) {
-  const auto* text = std::get_if<std::string>(&value);
-  if (text == nullptr || key.type != KeyType::number ||
-      key.unit.find(" or ") != std::string::npos) {
-    return value;
-  }
-  const std::optional<double> number = value_in(key.unit, *text);
-  return number ? KeyValue(*number) : value;
+  const bool depends_on_law = key.unit.find(" or ") != std::string::npos;
+  return depends_on_law ? value : in_unit_of(key, std::move(value));
 }
 
 // The points of one axis, with values as their keys take them.

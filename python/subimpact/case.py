@@ -160,9 +160,9 @@ class Case:
 
     def __getitem__(self, key: str) -> Any:
         value = self._settings.get(key)
-        type = _KEYS[key].type if value is not None else ""
-        has_unit = isinstance(value, str) and type == "number"
-        has_unit |= type == "placed" and any(isinstance(entry["position"], str) for entry in value or ())
+        kind = _KEYS[key].type if value is not None else ""
+        has_unit = isinstance(value, str) and kind == "number"
+        has_unit |= kind == "placed" and any(isinstance(entry["position"], str) for entry in value or ())
         if value is not None and not has_unit:
             return value
         _check_name(key)

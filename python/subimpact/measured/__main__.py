@@ -83,7 +83,8 @@ def _parser() -> argparse.ArgumentParser:
 
 def _write(run: str, directory: str, alignment: Alignment) -> list[str]:
     """Writes what the page shows, and returns what there is to say. Raises OutputError."""
-    page = {"quantity": alignment.quantity, "answers": alignment.answers(), "doubt": alignment.doubt, "caption": " ".join((draw_all.__doc__ or "").split()),
+    page = {"quantity": alignment.quantity, "answers": alignment.answers(), "doubt": alignment.doubt,
+            "caption": " ".join((draw_all.__doc__ or "").split()),
             "overlay": [packed(side.times, side.forces) for side in (alignment.measured, alignment.computed)]}
     with closing(_core.OutputDirectory(path_text(directory, OutputError), "figures", 0.0, identity_of(Path(run)))) as output:
         save(draw_all(alignment), Path(output.staging) / "measured", ("svg",))

@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING, NoReturn, Union
 
 import numpy as np
 
@@ -53,14 +53,17 @@ class Signal:
         for name in ("times", "forces"):
             object.__setattr__(self, name, np.ascontiguousarray(getattr(self, name), dtype=float))
         t, f = self.times, self.forces
-        faults = {
-            f"quantity is {self.quantity!r}; allowed: \"force\", \"strain\"": self.quantity not in ("force", "strain"),
-            f"times and forces have the shapes {t.shape} and {f.shape}; allowed: as many of each, 3 or more":
-                t.ndim != 1 or t.shape != f.shape or len(t) < 3,
-            "times or forces are not all finite; leave out what is not": not (np.isfinite(t).all() and np.isfinite(f).all()),
-            "times do not increase; sort them, and leave out what comes twice": t.ndim == 1 and not (np.diff(t) > 0.0).all()}
-        for words in (words for words, is_fault in faults.items() if is_fault):
-            raise ResultsError(f"{self.source}: {words}")
+        if self.quantity not in ("force", "strain"):
+            self._fail(f"quantity is {self.quantity!r}; allowed: \"force\", \"strain\"")
+        if t.ndim != 1 or t.shape != f.shape or len(t) < 3:
+            self._fail(f"times and forces have the shapes {t.shape} and {f.shape}; allowed: as many of each, 3 or more")
+        if not (np.isfinite(t).all() and np.isfinite(f).all()):
+            self._fail("times or forces are not all finite; leave out what is not")
+        if not (np.diff(t) > 0.0).all():
+            self._fail("times do not increase; sort them, and leave out what comes twice")
+
+    def _fail(self, words: str) -> NoReturn:
+        raise ResultsError(f"{self.source}: {words}")
 
     @property
     def interval(self) -> float:
@@ -211,7 +214,8 @@ class _Reading:
             step = step if parts[0] == 1.0 else None
         if step is None or not step > 0.0:
             self.table.fail(self.table.heading or None, "has no column of times and states no interval between samples with its "
-                            "unit, or a decimation; give interval=1us, or columns=T,F, the numbers of that of the time and that of the force")
+                            "unit, or a decimation; give interval=1us, or columns=T,F, the numbers of that of the time and that "
+                            "of the force")
         start = self._seconds(_STARTS) or 0.0
         return start + step * np.arange(n), f"samples {1e6 * step:.6g} us apart from {1e6 * start:.6g} us on, by the metadata"
 
@@ -225,15 +229,15 @@ class _Reading:
         """Refuses times that the metadata contradict."""
         step, found = self.stated_interval(), float(np.nanmedian(np.abs(np.diff(times))))
         if step and found and not 0.4 < found / step < 2.5:
-            self.table.fail(self.table.heading or None, f"has times {found:.3g} s apart and states {step:.3g} s between samples; give "
-                            "units=us,N, if the times have another unit, or interval=1us")
+            self.table.fail(self.table.heading or None, f"has times {found:.3g} s apart and states {step:.3g} s between samples; "
+                            "give units=us,N, if the times have another unit, or interval=1us")
 
     def check_factor(self) -> None:
         """Refuses a factor of the numbers in the metadata, of which instruments are not of one mind."""
         parts = quantity(self._metadata(("ymult", "ymultiplier", "yfactor", "scalefactor", "multiplier"), self.force) or "")
         if parts and parts[0] != 1.0:
-            self.table.fail(self.table.heading or None, f"states a factor of {parts[0]:g}; give scale={parts[0]:g} if its numbers are to "
-                            "be multiplied by it, or scale=1 if they are not")
+            self.table.fail(self.table.heading or None, f"states a factor of {parts[0]:g}; give scale={parts[0]:g} if its numbers "
+                            "are to be multiplied by it, or scale=1 if they are not")
 
     def _seconds(self, keys: tuple[str, ...]) -> float | None:
         parts = quantity(text) if (text := self._metadata(keys)) else None

@@ -22,10 +22,13 @@ if TYPE_CHECKING:
 _EMPTY = ("", "nan", "-nan", "inf", "-inf", "+inf", "infinity", "-infinity", "∞", "-∞", "+∞", "n/a", "#n/a", "na",
           "null", "none", "--", "-", "overflow", "over", *(sign + text for sign in ("", "-", "+") for text in
                                                                    ("1.#qnan", "1.#snan", "1.#inf", "1.#ind", "nan(ind)")))
-_CLOCK = re.compile(r"(?:(?<=[,;\t\"])|^)(?:\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d+)?)(?:Z|[-+]\d\d:?\d\d)?(?=[,;\t\"]|$)")
+#: A cell with a time of day, with or without a date and a time zone.
+_CLOCK = re.compile(r"(?:(?<=[,;\t\"])|^)(?:\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d+)?)"
+                    r"(?:Z|[-+]\d\d:?\d\d)?(?=[,;\t\"]|$)")
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+|\d{1,3}(?:[.,]\d{3})+(?:[.,]\d*)?)(?:[eE][-+]?\d+)?")
 _NUMBERS_ONLY = re.compile(r"[-+\d.,;|\s\"eEnaif∞]*\d[-+\d.,;|\s\"eEnaif∞]*", re.IGNORECASE)
-_OTHER_UNITS = ("°C", "C", "K", "%", "m", "mm", "um", "µm", "m/s", "mm/s", "rpm", "1/min", "bar", "Pa", "kPa", "MPa", "A", "mA", "°", "dB")
+_OTHER_UNITS = ("°C", "C", "K", "%", "m", "mm", "um", "µm", "m/s", "mm/s", "rpm", "1/min", "bar", "Pa", "kPa", "MPa", "A", "mA",
+                "°", "dB")
 _INDEX = ("sequence", "sample", "samples", "index", "point", "points", "nr", "no", "")
 _BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF32_LE: "utf-32", codecs.BOM_UTF32_BE: "utf-32",
          codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
@@ -183,7 +186,8 @@ class Table:
     def _is_units(self, cells: list[str]) -> bool:
         """Whether this row has the units of the columns."""
         has = [unit_of(cell) is not None for cell in cells]
-        return any(has) and all(known or cell.lower() in _INDEX or cell in _OTHER_UNITS or re.fullmatch(r"[\[(].*[\])]", cell) is not None
+        return any(has) and all(known or cell.lower() in _INDEX or cell in _OTHER_UNITS
+                                or re.fullmatch(r"[\[(].*[\])]", cell) is not None
                                 or (j not in self.columns and _NUMBER.fullmatch(cell) is not None)
                                 for j, (cell, known) in enumerate(zip(cells, has)))
 

@@ -25,7 +25,8 @@ _MANIFEST = "manifest.json"
 
 def write_tables(plan: Plan, identities: Mapping[int, str], store: Store) -> Counter[str]:
     """Writes runs.csv and sub_impacts.csv, both as one, from the rows there are, which have the
-    identities of the plan's cases, and base.toml, the case that its keys change; returns how many rows have each outcome. Raises OutputError."""
+    identities of the plan's cases, and base.toml, the case that its keys change; returns how many
+    rows have each outcome. Raises OutputError."""
     try:
         with _new(store.staging / RUNS) as runs, _new(store.staging / SUB_IMPACTS) as sub_impacts:
             outcomes = _write_rows(plan, identities, store, runs, sub_impacts)

@@ -84,6 +84,13 @@ std::optional<double> value_in(std::string_view unit, std::string_view text) {
   return std::nullopt;
 }
 
+KeyValue in_unit_of(const CaseKey& key, KeyValue value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (text == nullptr || key.type != KeyType::number) return value;
+  if (const std::optional<double> number = value_in(key.unit, *text)) return *number;
+  return value;
+}
+
 std::string units_beside(std::string_view unit, std::string_view separator) {
   std::string names;
   for (const NamedUnit& known : named_units) {

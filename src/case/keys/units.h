@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "subimpact/case/case_keys.h"
+
 namespace subimpact {
 
 /// The text without spaces and tabs at its ends.
@@ -21,6 +23,9 @@ NumberAndUnit split_unit(std::string_view text);
 /// `unit` may be two, "N/m^1.5 or N/m". Nothing without a number or unit, or with a unit of another
 /// quantity than that of `unit`.
 std::optional<double> value_in(std::string_view unit, std::string_view text);
+
+/// The number that a text with a unit stands for, where the key is a number; else the value itself.
+KeyValue in_unit_of(const CaseKey& key, KeyValue value);
 
 /// The units allowed in place of that of a key, separated: "m, mm, um"; empty: none.
 std::string units_beside(std::string_view unit, std::string_view separator = ", ");

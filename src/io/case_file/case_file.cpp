@@ -29,14 +29,6 @@ constexpr std::size_t largest_case = 1'000'000;  // bytes
 constexpr std::size_t most_problems = 100;       // reported at once
 constexpr const char* by_default = "default";    // as if the file did not have the key
 
-// The number that a text with a unit stands for.
-KeyValue in_unit_of(const CaseKey& key, KeyValue value) {
-  const auto* text = std::get_if<std::string>(&value);
-  if (text == nullptr || key.type != KeyType::number) return value;
-  if (const std::optional<double> number = value_in(key.unit, *text)) return *number;
-  return value;
-}
-
 // The unit in which a number is given; empty: none, or no number.
 std::string unit_given(const CaseKey& key, const KeyValue& value) {
   const auto* text = std::get_if<std::string>(&value);
