@@ -125,6 +125,11 @@ void check_contact(const Case& input) {
            "is given, and contact.damping too, but each gives the loss of the contact; leave one "
            "out");
   }
+  if (contact.restitution && input.scene.striker.gap == 0.0 &&
+      input.scene.bodies().approach() == 0.0) {
+    refuse("contact.restitution",
+           "is given, but striker and beam meet at rest; give contact.damping instead");
+  }
   const ContactConstants& way = constants_given(input, law);
   for (const char* name : way.keys) {
     if (is_known(input, name)) continue;

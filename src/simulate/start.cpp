@@ -80,13 +80,21 @@ void check_approach(const Problem& problem) {
   const bool forced = bodies.gravity != 0.0 || problem.beam.has_loads();
   const bool apart = problem.striker.gap > 0.0;
   if (bodies.approach() > 0.0 || (apart && forced)) return;
+  const bool rests = problem.beam.fixed || problem.beam.start == BeamStart::equilibrium;
+  const bool is_set_down = bodies.approach() == 0.0 && bodies.gravity > 0.0 && rests &&
+                           !problem.striker.fixed && !problem.beam.moves_at_start();
+  if (is_set_down) return;
   const double of_beam = problem.beam.velocity_at(problem.striker.position);
-  refuse(problem.beam.moves_at_start() ? "beam.velocity" : "striker.velocity",
-         "gives the struck point {:g} m/s, and the {} {:g} m/s, so that they do not approach each "
-         "other; allowed: a velocity of the striker minus that of the beam above 0 (a beam that "
-         "moves towards a stop has a negative velocity){}",
-         of_beam, problem.striker.fixed ? "stop has" : "striker has", bodies.striker_velocity(),
-         forced ? ", or a striker.gap above 0 that gravity and loads close" : "");
+  refuse(
+      problem.beam.moves_at_start() ? "beam.velocity" : "striker.velocity",
+      "gives the struck point {:g} m/s, and the {} {:g} m/s, so that they do not approach each "
+      "other; allowed: a velocity of the striker minus that of the beam above 0 (a beam that "
+      "moves towards a stop has a negative velocity){}",
+      of_beam, problem.striker.fixed ? "stop has" : "striker has", bodies.striker_velocity(),
+      forced
+          ? ", or a striker.gap above 0 that gravity and loads close; a striker that is set down "
+            "needs a beam at rest, beam.start = \"equilibrium\""
+          : "");
 }
 
 void check_elastic(const StruckBeam& beam, std::span<const double> q) {

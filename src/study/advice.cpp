@@ -28,7 +28,8 @@ Advice smaller_errors(const Case& input, const Result& result) {
   const auto& refinement = descriptor_of(input.model.mesh).refinement;
   const double order = refinement ? refinement->order(input) : 1.0;
   const double growth = std::pow(times_more_accurate, usual_growth / order);
-  return {{{"--within", fmt::format("{:.1g}us", 1e6 * within)}},
+  const double rounded = std::stod(fmt::format("{:.1g}", 1e6 * within));
+  return {{{"--within", fmt::format("{:g}us", rounded)}},
           std::min(result.work.all_seconds * (1.0 + growth),
                    seconds_of_work(input.accuracy.work_limit, input, result)),
           "makes more of them certain, and the errors smaller"};
@@ -85,7 +86,7 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
     } else if (!result.tolerance) {
       all.push_back(smaller_errors(input, result));
     } else if (is_stopped_by_work) {
-      all.push_back({{{"--within", fmt::format("{:.3g}us", 1e6 * result.tolerance->asked)},
+      all.push_back({{{"--within", fmt::format("{:g}us", 1e6 * result.tolerance->asked)},
                       {"--set", fmt::format("accuracy.work_limit={:.3g}",
                                             times_more_accurate * input.accuracy.work_limit)}},
                      times_more_accurate * result.work.all_seconds,

@@ -128,14 +128,44 @@ TEST(Restarts, AFallFromRestIsThatOfItsDropHeight) {
   const Result result = simulate(input);
   ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
   EXPECT_NEAR(result.first_touch.striker, std::sqrt(2.0 * 9.81 * 1e-2), 1e-9);
-  input.scene.striker.gap = 0.0;
-  for (const double v : {1e-6, 1e-9, 1e-12, 1e-20}) {  // set down
-    input.scene.striker.velocity = v;
-    const Result set_down = simulate(input);
-    EXPECT_TRUE(set_down.outcome.completed()) << v << ": " << set_down.outcome.message;
-    const double static_depth = input.scene.striker.mass * 9.81 / *input.scene.contact.stiffness;
-    EXPECT_NEAR(set_down.max_indentation, 2.0 * static_depth, 1e-2 * static_depth) << v;
+}
+
+// m g d = K d^(n + 1)/(n + 1) at the largest indentation d.
+TEST(Restarts, AStrikerSetDownPressesWithItsWeightTimesNPlus1) {
+  for (const auto& [kind, n] : {std::pair{ContactKind::linear, 1.0}, {ContactKind::hertz, 1.5}}) {
+    Case input = rigid_case(kind, 0.0, 0.05);
+    input.scene.beam.fixed = true;
+    input.scene.gravity = 9.81;
+    const double weight = input.scene.striker.mass * 9.81;
+    for (const double v : {0.0, 1e-20, 1e-12, 1e-9, 1e-6}) {
+      for (const Method method : adaptive) {
+        input.scene.striker.velocity = v;
+        input.solver.method = method;
+        const Result result = simulate(input);
+        EXPECT_TRUE(result.outcome.completed()) << v << ": " << result.outcome.message;
+        EXPECT_NEAR(result.max_force, (n + 1.0) * weight, 2e-3 * weight)
+            << v << ' ' << to_string(method);
+        EXPECT_TRUE(v > 0.0 || !result.restitution);
+      }
+    }
   }
+}
+
+TEST(Restarts, AStrikerSetDownNeedsABeamAtRestUnderItsOwnWeight) {
+  Case input = rigid_case(ContactKind::hertz, 0.0, 2e-2);
+  input.model.mesh = MeshKind::cells;
+  input.model.elements = 100;
+  input.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
+  input.scene.gravity = 9.81;
+  EXPECT_THROW(simulate(input), InvalidCase);
+  input.scene.beam.start = BeamStart::equilibrium;
+  const Result result = simulate(input);
+  EXPECT_TRUE(result.outcome.completed()) << result.outcome.message;
+  ASSERT_FALSE(result.sub_impacts.empty());
+  EXPECT_EQ(result.sub_impacts[0].start, 0.0);
+  EXPECT_GT(result.max_force, input.scene.striker.mass * 9.81);
+  input.scene.contact.restitution = 0.5;
+  EXPECT_THROW(simulate(input), InvalidCase);
 }
 
 }  // namespace

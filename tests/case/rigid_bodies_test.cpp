@@ -69,6 +69,49 @@ TEST(RigidBodies, ComeOutTheSameByEveryMethod) {
   }
 }
 
+TEST(RigidBodies, StruckAnywhereHaveTheRestitutionOfTheirStruckPoints) {
+  for (const double position : {0.5, 0.6, 0.85, 1.0}) {
+    for (const double e : {0.4, 1.0}) {
+      Case input = rigid_case(ContactKind::hertz, 1.0);
+      input.scene.striker.position = position;
+      input.scene.contact.restitution = e;
+      input.scene.striker.mass = 0.01;  // it parts by the first contact
+      const Result result = simulate(input);
+      ASSERT_EQ(result.sub_impacts.size(), 1u) << position;
+      ASSERT_TRUE(result.restitution) << position;
+      EXPECT_NEAR(*result.restitution, e, 1e-8) << position;
+    }
+  }
+}
+
+// An impulse S at x turns it by S x/(m l^2/3 + J l); the end moves by x of that.
+TEST(RigidBodies, AreWhatABeamOnOneHingeIsMeasuredAs) {
+  for (const MeshKind mesh : {MeshKind::cells, MeshKind::hermite}) {
+    Case input = rigid_case(ContactKind::hertz, 1.0);
+    input.model.mesh = mesh;
+    input.model.elements = 20;
+    Beam& beam = input.scene.beam;
+    beam.yield_stress = std::numeric_limits<double>::infinity();
+    input.scene.striker.mass = 0.01;
+    input.end_time = 2e-3;
+    for (const double position : {0.4, 0.9}) {
+      input.scene.striker.position = position;
+      beam.ends = {EndSupport::pinned, EndSupport::free};
+      const double lever = position * beam.length;
+      const double inertia =
+          beam.length * (beam.mass() * beam.length / 3.0 + beam.rotary_inertia());
+      for (const bool mirrored : {false, true}) {
+        const Result result = simulate(input);
+        EXPECT_NEAR(result.parting.beam, result.impulse() * lever * lever / inertia,
+                    (mesh == MeshKind::cells ? 1e-5 : 1e-8) * std::abs(result.parting.beam))
+            << position << ' ' << mirrored << ' ' << static_cast<int>(mesh);
+        beam.ends = {EndSupport::free, EndSupport::pinned};
+        input.scene.striker.position = 1.0 - position;
+      }
+    }
+  }
+}
+
 TEST(RigidBodies, HaveNoRestitutionWhileTheyTouchOrApproach) {
   Case input = rigid_case(ContactKind::linear, 1.0);
   const double end = simulate(input).sub_impacts.at(0).end.value();

@@ -342,7 +342,7 @@ TEST_F(ARun, ThatEndsWithinTheFirstContactStatesNoErrorOfItsEnd) {
   const Finished run = run_in(directory, paper("run", {"time.end=3.71e-5", "output.interval=0"}));
   expect_in(unwrapped(run.output),
             "no event time up to 37.1 us but the first touch, which is exact",
-            "1 sub-impact, 0 to (open) us", "\n   1             0        (open)");
+            "1 sub-impact, 0 us to the end of the run", "\n   1             0        (open)");
   const FinishedRun read = read_results(directory.path / "case-results");
   const SubImpact& open = read.result.sub_impacts.front();
   EXPECT_FALSE(open.end);

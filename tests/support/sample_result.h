@@ -43,6 +43,7 @@ inline Result sample_result() {
   result.first_contact_yield = 1e-6 / 3.0;
   result.max_force = first.peak_force;
   result.restitution = 0.20302;
+  result.first_touch.striker = 15.9;
   result.work.steps = 1234;
   result.work.wall_seconds = 0.25;
   return result;

@@ -290,7 +290,8 @@ struct Scene {
 
 inline double Bodies::velocity_scale() const {
   const double at_start = std::abs(approach());
-  if (striker.gap == 0.0) return at_start;
+  const bool is_set_down = striker.gap == 0.0 && at_start == 0.0;
+  if (striker.gap == 0.0 && !is_set_down) return at_start;
   double force = std::abs(beam.load) * beam.length;
   for (const PointForce& one : beam.forces) {
     double largest = 0.0;
@@ -299,7 +300,9 @@ inline double Bodies::velocity_scale() const {
   }
   const double acceleration = std::abs(gravity) + force / beam.mass();
   if (acceleration == 0.0) return at_start;
-  return std::sqrt(at_start * at_start + 2.0 * acceleration * striker.gap);
+  constexpr double depth_under_weight = 1e-6;  // m, by order of magnitude
+  return std::sqrt(at_start * at_start +
+                   2.0 * acceleration * (is_set_down ? depth_under_weight : striker.gap));
 }
 
 }  // namespace subimpact

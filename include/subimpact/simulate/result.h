@@ -282,15 +282,15 @@ struct Result : Assessment {
   double largest_displacement = 0.0;   ///< m, of the struck point, at these and at rows
   double striker_velocity = 0.0;       ///< m/s, at the end
   double beam_mean_velocity = 0.0;     ///< m/s, at the end: beam momentum over beam mass
-  /// Velocities (m/s) of the striker and of the beam, its mean, at a time (s).
+  /// Velocities (m/s), at a time (s), of the striker and, at the struck point, of the rigid body
+  /// that has the beam's momentum and moment of momentum: its mean if it is struck at mid-span.
   struct Velocities {
     double time = 0.0, striker = 0.0, beam = 0.0;
   };
   Velocities first_touch;  ///< as they first met
   Velocities parting;      ///< at the last separation, or at the end where there was none
-  /// Coefficient of restitution. Beam without supports: (beam - striker) at parting over (striker -
-  /// beam) at first touch; held beam: - striker over striker; beam on a stop: - beam over beam.
-  /// None if the bodies never touched.
+  /// Coefficient of restitution: (beam - striker) at parting over (striker - beam) at first touch.
+  /// None if the bodies never touched, or touched at rest.
   std::optional<double> restitution;
   /// s: the start of a contact in which gravity holds the striker on the beam to the end of the run
   /// and beyond.

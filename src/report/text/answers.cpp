@@ -8,6 +8,7 @@
 #include "case/keys/case_choices.h"
 #include "case/problem.h"
 #include "numerics/units.h"
+#include "report/text/strike_answer.h"
 #include "report/text/uncertain.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/report/text.h"
@@ -22,12 +23,6 @@ constexpr double doubtful_pressure = 1e9;  // Pa
 constexpr Measure as_stress{"Pa", 6, 3};
 constexpr int least_digits_of_energies = 2;          // whatever their errors
 constexpr double openings_counted[] = {1e-6, 1e-5};  // m
-
-std::string mass_text(double mass) {
-  if (mass >= 1e4) return fmt::format("{:.4g} t", 1e-3 * mass);
-  const ReadUnit unit = unit_for(1e3 * mass, {"g", 3});
-  return with_unit(fmt::format("{:.4g}", unit.per_si * 1e3 * mass), unit);
-}
 
 // "37 parted by more than 1 um, 13 by more than 10 um; "; empty for a single contact.
 std::string parted_words(const Case& input, const Result& result) {
@@ -47,65 +42,12 @@ std::string parted_words(const Case& input, const Result& result) {
   return words.empty() ? words : words + "; ";
 }
 
-}  // namespace
-
-std::string others_in_scene(const Scene& scene) {
-  const Beam& beam = scene.beam;
-  std::vector<std::string> words;
-  const auto add = [&](bool is_there, std::string what) {
-    if (is_there) words.push_back(std::move(what));
-  };
-  add(scene.gravity != 0.0, fmt::format("gravity {:.6g} m/s2", scene.gravity));
-  add(scene.gravity == 0.0 && scene.striker.drop_height,
-      "gravity sets the velocity and does not act in the run");
-  add(beam.load != 0.0, fmt::format("load {:.6g} N/m", beam.load));
-  add(!beam.forces.empty(), counted(beam.forces.size(), "force"));
-  add(!beam.springs.empty(), counted(beam.springs.size(), "spring"));
-  add(beam.foundation > 0.0, fmt::format("bedding {:.6g} N/m2", beam.foundation));
-  add(beam.start == BeamStart::equilibrium, "beam in equilibrium at the start");
-  add(beam.velocity != 0.0, fmt::format("beam moving at {:.6g} m/s", beam.velocity));
-  add(beam.angular_velocity != 0.0,
-      fmt::format("beam turning at {:.6g} rad/s about {:.6g} of its length", beam.angular_velocity,
-                  beam.used_pivot()));
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
-namespace {
-
-std::string striker_words(const Scene& scene, const std::string& contact) {
-  const Striker& striker = scene.striker;
-  const std::string law = contact.empty() ? "" : " (" + contact + ")";
-  if (striker.fixed) return "a stop" + law;
-  return fmt::format(
-      "{}{} at {:.4g} m/s{}", mass_text(striker.mass), law, scene.bodies().striker_velocity(),
-      striker.drop_height ? fmt::format(" after a fall of {:.4g} m", *striker.drop_height) : "");
-}
-
-Answer strike(const Case& input, const Result& result) {
-  const Scene& scene = input.scene;
-  const double x = scene.striker.position;
-  const std::string where = x == 0.5 ? std::string("the middle")
-                            : x == 0.0 || x == 1.0
-                                ? fmt::format("the {} end", name_of(scene.beam.ends[x == 1.0]))
-                                : fmt::format("{:.4g} of the length", x);
-  const std::string reached = duration_text(result.outcome.time),
-                    end = duration_text(input.end_time);
-  const std::string others = others_in_scene(scene);
-  return {"strike",
-          fmt::format(
-              "{}, {}{}", striker_words(scene, contact_words(input)),
-              scene.beam.fixed
-                  ? std::string("on a plane that does not move")
-                  : fmt::format("at {} of a {}-{} beam of {}", where, name_of(scene.beam.ends[0]),
-                                name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
-              others.empty() ? "" : "; " + others),
-          fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
-                      result.work.all_seconds)};
-}
-
 Answer restitution(const Case& input, const Result& result) {
   if (result.sub_impacts.empty()) return {"restitution", "none", "striker and beam never touched"};
   if (!result.restitution) {
+    if (result.first_touch.striker <= result.first_touch.beam) {
+      return {"restitution", "none", "striker and beam met at rest"};
+    }
     const bool apart = result.sub_impacts.back().end.has_value();
     return {"restitution", "not yet",
             apart ? "striker and beam approach each other at the end"
@@ -123,15 +65,16 @@ Answer restitution(const Case& input, const Result& result) {
       words +=
           ", beam " +
           total_text(result, "beam_mean_velocity_m_per_s", result.beam_mean_velocity, as_velocity) +
-          " (mean)";
+          (scene.striker.position == 0.5 ? " (mean)" : " (mean; it turns)");
     }
     words += " at the end";
   } else {
-    words = scene.striker.fixed ? fmt::format("beam {:.4g} m/s (mean)", beam)
-            : scene.beam.is_unsupported()
-                ? fmt::format("striker {:.4g} m/s, beam {:.4g} m/s (mean)", striker, beam)
-                : fmt::format("striker {:.4g} m/s, against its own of the first touch", striker);
-    words += "; at the last separation, " + time_text(time);
+    const std::string of_striker = "striker " + rough_text({striker, {}}, as_velocity);
+    const std::string of_beam = "beam " + rough_text({beam, {}}, as_velocity);
+    words = scene.striker.fixed ? of_beam
+            : beam != 0.0       ? of_striker + ", " + of_beam
+                                : of_striker + ", against its own of the first touch";
+    words += " at the last separation, " + time_text(time);
   }
   return {"restitution", total_text(result, "restitution", *result.restitution, as_ratio), words};
 }
@@ -176,7 +119,8 @@ void add_impulses(const Result& result, std::vector<Answer>& answers) {
          fmt::format("{} {}{}, {} to {}", count_text(totals.sub_impacts),
                      noun_after(zone.n_sub_impacts, "sub-impact"),
                      zone.n_subzones > 1 ? fmt::format(" in {} sub-zones", zone.n_subzones) : "",
-                     time(totals.start), with_unit(zone.end ? time(totals.end) : "(open)", unit))});
+                     zone.end ? time(totals.start) : with_unit(time(totals.start), unit),
+                     zone.end ? with_unit(time(totals.end), unit) : "the end of the run")});
   }
   if (zones.size() > most_zones) {
     answers.back().note += fmt::format("; {} more zones follow", zones.size() - most_zones);
@@ -414,7 +358,7 @@ std::string contact_over_words(const Result& result) {
 
 std::vector<Answer> answers(const Case& input, const Result& result) {
   const bool is_in_contact = !result.sub_impacts.empty() && !result.sub_impacts.back().end;
-  std::vector<Answer> all = {strike(input, result)};
+  std::vector<Answer> all = {strike_answer(input, result)};
   all.push_back({"sub-impacts",
                  fmt::format("{} in {}", result.sub_impacts.size(),
                              counted(summarise_zones(result.sub_impacts).size(), "zone")) +

@@ -352,8 +352,10 @@ std::optional<double> error_of_total(const Result& result, std::string_view name
 
 std::string total_text(const Result& result, const char* name, double value,
                        const Measure& measure) {
-  return result.error_estimate ? text_of({value, error_of_total(result, name)}, measure)
-                               : plain_text(value, measure);
+  if (!result.error_estimate) return plain_text(value, measure);
+  const std::optional<double> error = error_of_total(result, name);
+  const bool is_odd = !error && !result.error_estimate->totals.empty();
+  return text_of({value, error}, measure) + (is_odd ? " (error not known)" : "");
 }
 
 const ErrorEstimate::UncertainFlight* doubt_after_last(const Result& result) {

@@ -8,7 +8,9 @@
 
 #include "numerics/bracketed_root.h"
 #include "numerics/hermite.h"
+#include "numerics/lanes.h"
 #include "simulate/run_parts.h"
+#include "system/readings/rigid_motion.h"
 
 namespace subimpact {
 namespace {
@@ -38,7 +40,7 @@ constexpr double tolerated_rounding = 64.0;
 // Places at which the largest rotation is looked for, both ends of the part modelled among them.
 constexpr int n_rotations = 17;
 
-// The sections nearest to the given positions, or in a half model to their mirror images.
+// Those nearest to the given positions, or in a half model to their mirror images.
 std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
                                      const BeamMesh& mesh) {
   std::vector<std::size_t> sections;
@@ -85,6 +87,8 @@ void Recorder::keep_fields(const RunParts& parts) {
     const auto rotation = parts.beam.mesh().rotation_at(end * i / (n_rotations - 1));
     if (rotation) rotations_.push_back(*rotation);
   }
+  rigid_motion_ =
+      rigid_motion_at_struck_point(parts.beam, parts.problem.beam, parts.problem.striker.position);
   auto fields = std::make_unique<FieldRecorder>(parts, result_, rows_);
   if (fields->is_needed()) fields_ = std::move(fields);
 }
@@ -342,22 +346,18 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     result_.closest_approach = near_misses_.closest(time, y, beam);
   }
   near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
-  for (const SubImpact& sub_impact : result_.sub_impacts) {
-    result_.max_force = std::max(result_.max_force, sub_impact.peak_force);
-    result_.max_indentation = std::max(result_.max_indentation, sub_impact.max_indentation);
+  for (const SubImpact& s : result_.sub_impacts) {
+    result_.max_force = std::max(result_.max_force, s.peak_force);
+    result_.max_indentation = std::max(result_.max_indentation, s.max_indentation);
   }
   result_.final_energies = accounts_.energies(y, time);
   if (result_.sub_impacts.empty() || !result_.sub_impacts.front().end) {
     result_.parting = velocities(time, y);
-  }
-  if (!result_.sub_impacts.empty() && result_.sub_impacts.front().end) {
-    const auto& [first, before_striker, before_beam] = result_.first_touch;
-    const auto& [last, after_striker, after_beam] = result_.parting;
-    const bool is_held = beam.mesh().translation().empty();
-    result_.restitution = beam.has_stop() ? -after_beam / before_beam
-                          : is_held       ? -after_striker / before_striker
-                                    : (after_beam - after_striker) / (before_striker - before_beam);
-    if (*result_.restitution < 0.0 && !result_.no_more_contact) result_.restitution.reset();
+  } else {
+    const double met_at = result_.first_touch.striker - result_.first_touch.beam;
+    const double parted_at = result_.parting.beam - result_.parting.striker;
+    const bool is_over = parted_at >= 0.0 || result_.no_more_contact;
+    if (met_at > 0.0 && is_over) result_.restitution = parted_at / met_at;
   }
   result_.n_yielded_sections = beam.n_yielded_sections();
   result_.striker_velocity = y.back();
@@ -412,8 +412,8 @@ void Recorder::add_section_rows(double time, const State& y, Accounts& accounts)
 }
 
 Result::Velocities Recorder::velocities(double time, const State& y) const {
-  const StruckBeam& beam = accounts_.beam();
-  return {time, y.back(), accounts_.beam_momentum(y) / beam.mesh().beam_mass()};
+  const std::span<const double> of_beam = accounts_.beam().beam_velocities(y);
+  return {time, y.back(), dot(rigid_motion_.data(), of_beam.data(), rigid_motion_.size())};
 }
 
 HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
@@ -421,8 +421,8 @@ HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
   audit_.check(time, y, energies);
   const Accounts::Displacements at = accounts.displacements(y);
   follow_displacement(at.struck);
-  const StruckBeam& beam = accounts.beam();
   HistoryRow row{};
+  const StruckBeam& beam = accounts.beam();
   row.time = time;
   row.force = beam.contact_force(y);
   row.indentation = beam.indentation(y);

@@ -118,6 +118,7 @@ class Recorder final : public RunObserver {
   double half_height_ = 0.0;               // m, of the section
   std::unique_ptr<FieldRecorder> fields_;  // none: no field is kept
   std::vector<SparseFunctional> rotations_;
+  std::vector<double> rigid_motion_;  // at the struck point; empty: none
   std::vector<long> steps_in_contact_;
 };
 

@@ -1,0 +1,74 @@
+#include "report/text/strike_answer.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "case/counted.h"
+#include "case/keys/case_choices.h"
+#include "report/text/uncertain.h"
+
+namespace subimpact {
+namespace {
+
+std::string mass_text(double mass) {
+  if (mass >= 1e4) return fmt::format("{:.4g} t", 1e-3 * mass);
+  const ReadUnit unit = unit_for(1e3 * mass, {"g", 3});
+  return with_unit(fmt::format("{:.4g}", unit.per_si * 1e3 * mass), unit);
+}
+
+std::string striker_words(const Scene& scene, const std::string& contact) {
+  const Striker& striker = scene.striker;
+  const std::string law = contact.empty() ? "" : " (" + contact + ")";
+  if (striker.fixed) return "a stop" + law;
+  return fmt::format(
+      "{}{} at {:.4g} m/s{}", mass_text(striker.mass), law, scene.bodies().striker_velocity(),
+      striker.drop_height ? fmt::format(" after a fall of {:.4g} m", *striker.drop_height) : "");
+}
+
+}  // namespace
+
+std::string others_in_scene(const Scene& scene) {
+  const Beam& beam = scene.beam;
+  std::vector<std::string> words;
+  const auto add = [&](bool is_there, std::string what) {
+    if (is_there) words.push_back(std::move(what));
+  };
+  add(scene.gravity != 0.0, fmt::format("gravity {:.6g} m/s2", scene.gravity));
+  add(scene.gravity == 0.0 && scene.striker.drop_height,
+      "gravity sets the velocity and does not act in the run");
+  add(beam.load != 0.0, fmt::format("load {:.6g} N/m", beam.load));
+  add(!beam.forces.empty(), counted(beam.forces.size(), "force"));
+  add(!beam.springs.empty(), counted(beam.springs.size(), "spring"));
+  add(beam.foundation > 0.0, fmt::format("bedding {:.6g} N/m2", beam.foundation));
+  add(beam.start == BeamStart::equilibrium, "beam in equilibrium at the start");
+  add(beam.velocity != 0.0, fmt::format("beam moving at {:.6g} m/s", beam.velocity));
+  add(beam.angular_velocity != 0.0,
+      fmt::format("beam turning at {:.6g} rad/s about {:.6g} of its length", beam.angular_velocity,
+                  beam.used_pivot()));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+Answer strike_answer(const Case& input, const Result& result) {
+  const Scene& scene = input.scene;
+  const double x = scene.striker.position;
+  const std::string where = x == 0.5 ? std::string("the middle")
+                            : x == 0.0 || x == 1.0
+                                ? fmt::format("the {} end", name_of(scene.beam.ends[x == 1.0]))
+                                : fmt::format("{:.4g} of the length", x);
+  const std::string reached = duration_text(result.outcome.time),
+                    end = duration_text(input.end_time);
+  const std::string others = others_in_scene(scene);
+  return {"strike",
+          fmt::format(
+              "{}, {}{}", striker_words(scene, contact_words(input)),
+              scene.beam.fixed
+                  ? std::string("on a plane that does not move")
+                  : fmt::format("at {} of a {}-{} beam of {}", where, name_of(scene.beam.ends[0]),
+                                name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
+              others.empty() ? "" : "; " + others),
+          fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
+                      result.work.all_seconds)};
+}
+
+}  // namespace subimpact
