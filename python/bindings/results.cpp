@@ -9,6 +9,7 @@
 #include "bindings.h"
 #include "finished.h"
 #include "io/records/run_tables.h"
+#include "subimpact/io/case_file.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
@@ -164,6 +165,7 @@ void bind_results(py::module_& module) {
             write_results(directory, run.input, run.result);
           },
           py::arg("directory"), py::call_guard<py::gil_scoped_release>())
+      .def("case_text", [](const Finished& run) { return case_file_text(run.input); })
       .def("summary", [](const Finished& run) { return summary_json(run.input, run.result); })
       .def("events_csv", [](const Finished& run) { return csv_of<SubImpact>(run.result); })
       .def("swept_cells",

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from .case import Case
+
     Table = npt.NDArray[np.void]
 
 
@@ -86,6 +88,13 @@ class Result:
         """summary.json: settings given and used, counts, zones, conservation, work."""
         summary: dict[str, Any] = json.loads(self._finished.summary())
         return summary
+
+    @property
+    def case(self) -> Case:
+        """The case that was run, with every choice made: of mesh, method, theory ..."""
+        from .case import Case
+
+        return Case.from_text(self._finished.case_text())
 
     @property
     def outcome(self) -> str:

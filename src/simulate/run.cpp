@@ -75,6 +75,7 @@ void count_work(const Integrator& integrator, const StruckBeam& beam, const Even
       in_modes ? 0 : beam.n_accelerations() + loop.n_correction_solves() + counts.mass_solves;
   work.factorisations += in_modes ? 0 : 1;
   work.roots = loop.n_events();
+  work.section_flows = beam.n_flows();
 }
 
 // Steps to the end, or to where the run is stopped.

@@ -14,6 +14,11 @@ Case with_method(const Case& input, const std::string& name);
 /// `method`, or erk where that method cannot take the damping of the case.
 Method method_for_damping(const Case& input, Method method);
 
+/// Whether the steps of central differences on the mesh of a case are not far shorter than those
+/// that flights between contacts need. Those of short contacts last for the whole run; a method
+/// that changes its step takes less time then, although each step takes longer.
+bool central_differences_suit(Case input);
+
 /// Whether resolve() takes the case.
 bool can_run(const Case& input);
 

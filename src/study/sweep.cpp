@@ -63,6 +63,18 @@ Method method_for_damping(const Case& input, Method method) {
   return (!contact && !beam) || taken == Damping::any || of_modes ? method : Method::erk;
 }
 
+bool central_differences_suit(Case input) {
+  constexpr double least_phase = 1.0 / 32.0;  // of the mesh's highest frequency in a step
+  input.solver = {};
+  input.solver.method = Method::central_difference;
+  try {
+    const ResolvedSettings used = resolve(input).settings();
+    return *used.step * used.highest_frequency >= least_phase;
+  } catch (const InvalidCase&) {
+    return true;
+  }
+}
+
 bool can_run(const Case& input) {
   try {
     resolve(input);

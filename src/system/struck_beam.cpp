@@ -254,16 +254,16 @@ bool StruckBeam::commit(const State& y) {
   if (!sections_.can_yield()) return false;
   if (section_evaluation_ == Evaluation::smooth) {
     read_motion(y, committed_);
-    return sections_.commit(committed_.curvatures, committed_.rates) > 0;
+    return count_flows(sections_.commit(committed_.curvatures, committed_.rates));
   }
   mesh_->curvatures(beam_positions(y), curvatures_);
-  return sections_.commit(curvatures_) > 0;
+  return count_flows(sections_.commit(curvatures_));
 }
 
 bool StruckBeam::commit_evaluated(const State& y) {
   if (section_evaluation_ == Evaluation::smooth) return commit(y);
   if (contact_.loads()) contact_.commit(indentation(y));
-  return sections_.commit(outside_) > 0;
+  return count_flows(sections_.commit(outside_));
 }
 
 BeamJacobian& StruckBeam::jacobian() const {

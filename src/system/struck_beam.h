@@ -177,8 +177,14 @@ class StruckBeam final : public MechanicalSystem {
   long n_accelerations() const { return n_accelerations_; }
   /// Evaluations of the bending forces alone or with the contact force, without a mass solve.
   long n_forces() const { return n_forces_; }
+  /// Sections that flowed, summed over the states that were committed.
+  long n_flows() const { return n_flows_; }
 
  private:
+  bool count_flows(std::size_t n) {
+    n_flows_ += static_cast<long>(n);
+    return n > 0;
+  }
   // forces = -B^T W M - K_s w.
   void bend(std::span<const double> unknowns, std::span<double> forces);
   // Adds the forces of the beam's damping, all or those of beta.
@@ -217,6 +223,7 @@ class StruckBeam final : public MechanicalSystem {
   mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first needs it
   long n_accelerations_ = 0;
   long n_forces_ = 0;
+  long n_flows_ = 0;
   AlignedVector curvatures_, moments_;          // work space
   std::vector<SectionField::Outside> outside_;  // at the last evaluation
   std::vector<double> trial_;                   // accelerations

@@ -245,6 +245,12 @@ def test_a_result_is_the_same_after_pickling(elastic):
             assert other.tobytes() == one.tobytes(), name
 
 
+def test_the_case_of_a_result_repeats_it(elastic):
+    result = si.run(elastic)
+    assert result.case["solver.rtol"] == result["solver.rtol"]
+    np.testing.assert_array_equal(si.run(result.case).sub_impacts["start_s"], result.sub_impacts["start_s"])
+
+
 def test_gauges_are_columns_of_the_history_after_files_and_pickling_too(elastic, tmp_path):
     case = elastic.changed({"time.end": 1e-4, "output.gauges": [{"position": np.float64(0.5)}, {"position": "0.3 m", "face": "front"}]})
     assert case["output.gauges"] == [{"position": 0.5, "face": "back"}, {"position": 0.3 / 0.7112, "face": "front"}]

@@ -1,6 +1,7 @@
 """Sweeps: plans, engines of this machine, tables."""
 
 import csv
+import gc
 import os
 import random
 import signal
@@ -161,6 +162,15 @@ def test_without_samples_the_scatter_of_a_case_is_that_of_its_run(without_rows, 
     assert sweep.runs["predictable_until_s"][1] == result.summary["predictability"]["horizon_s"]
     rows = sweep.sub_impacts[sweep.sub_impacts.run == 1]
     np.testing.assert_array_equal(rows["end_scatter_s"], result.sub_impacts["end_scatter_s"])
+
+
+def test_without_a_directory_a_sweep_keeps_its_tables_as_long_as_it_lives(without_rows):
+    sweep = si.sweep(without_rows.changed({"time.end": 2e-4}), {"striker.velocity": [10.0, 15.9]}, workers=0)
+    directory = sweep.directory
+    assert list(sweep.runs["striker.velocity"]) == [10.0, 15.9] and len(sweep.sub_impacts) > 0
+    del sweep
+    gc.collect()
+    assert not directory.exists()
 
 
 @pytest.mark.parametrize("line, words", [

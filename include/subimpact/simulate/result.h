@@ -234,7 +234,8 @@ struct ResolvedSettings {
 /// The cost of a run: of the integration (including mass solves and right-hand sides of the beam)
 /// and of event location.
 struct Work : WorkCounts {
-  long roots = 0;  ///< events located
+  long roots = 0;          ///< events located
+  long section_flows = 0;  ///< sections that flowed, summed over steps
   double setup_seconds = 0.0;
   double wall_seconds = 0.0;  ///< whole, set-up included
   double all_seconds = 0.0;   ///< with the runs beside and before it; 0: there were none

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import tempfile
 import time
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
@@ -32,8 +33,14 @@ class Sweep:
     """The results of a sweep: the files in its directory."""
 
     def __init__(
-        self, plan: Plan, directory: Path, outcomes: Mapping[str, int], notes: list[str]
+        self,
+        plan: Plan,
+        directory: Path,
+        outcomes: Mapping[str, int],
+        notes: list[str],
+        temporary: tempfile.TemporaryDirectory[str] | None = None,
     ) -> None:
+        self._temporary = temporary
         self.plan = plan
         self.directory = directory  #: of sweep.sqlite, runs.csv, sub_impacts.csv and base.toml, the case that the keys change
         self.outcomes = dict(outcomes)  #: how many cases have each outcome
@@ -170,7 +177,7 @@ def sweep(
     case: Case | Plan,
     axes: Axes | None = None,
     *,
-    out: str | os.PathLike[str],
+    out: str | os.PathLike[str] | None = None,
     scatter: Mapping[str, float] | None = None,
     samples: int | None = None,
     seed: int = 1,
@@ -192,7 +199,8 @@ def sweep(
                 what is run: see `Plan`. A Plan may stand in place of the case
     out         the directory of the results: the store (sweep.sqlite) and its tables runs.csv and
                 sub_impacts.csv. A sweep that was stopped, by whatever, goes on from there; cases of
-                an earlier plan that the new one has too are not run again
+                an earlier plan that the new one has too are not run again. Left out: a temporary
+                directory, which goes with the Sweep
     workers     processes on this machine; by default one per core; 0: none, all runs in this one
     memory      GiB of address space that a worker process may have
     executor    what runs the cases instead: a client of Dask, an MPIPoolExecutor of mpi4py, or
@@ -216,6 +224,10 @@ def sweep(
         if not plan.keys():
             raise PlanError('nothing differs from case to case; give axes, such as {"striker.mass": [0.1, 0.2]}')
     numbers = range(len(plan))[slice(*only)] if only else range(len(plan))
+    temporary = None
+    if out is None:
+        temporary = tempfile.TemporaryDirectory(prefix="subimpact-sweep-")
+        out = temporary.name
     with Interruption() as interruption, Store(out) as store:
         for directory in merge:
             _merge(store, directory)
@@ -235,4 +247,4 @@ def sweep(
             interruption.hold()
             sink.flush()
             outcomes = write_tables(plan, identities, store)
-        return Sweep(plan, store.directory, outcomes, store.notes)
+        return Sweep(plan, store.directory, outcomes, store.notes, temporary)

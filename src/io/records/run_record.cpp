@@ -423,7 +423,6 @@ Record<DescribedRun> make_run_record() {
       {"error_bars", "errors of event times; null: not estimated", result(&Result::error_estimate), error_record},
       {"totals", "numbers of the run as a whole, each with its value and its error, which covers 95 of 100; null: not known, as of the largest strain where a hinge forms, in which strains grow without limit on finer meshes. by_zone: for each zone start_s, end_s, impulse_Ns, sub_impacts", &totals_json, &read_totals},
       {"predictability", "of a case with scatter", result(&Result::predictability), predictability_record},
-
       {"work.steps", "steps of the method", work(&Work::steps)},
       {"work.rejected_steps", "steps repeated with another length", work(&Work::rejected_steps)},
       {"work.partial_steps", "steps made to compute states within a step", work(&Work::partial_steps)},
@@ -432,6 +431,7 @@ Record<DescribedRun> make_run_record() {
       {"work.jacobians", "evaluations of the Jacobian", work(&Work::jacobians)},
       {"work.factorisations", "of matrices", work(&Work::factorisations)},
       {"work.roots", "events located", work(&Work::roots)},
+      {"work.section_flows", "sections that flowed, summed over steps", work(&Work::section_flows)},
       {"work.nonlinear_iterations", "of implicit methods", work(&Work::nonlinear_iterations)},
       {"work.nonlinear_failures", "of implicit methods", work(&Work::nonlinear_failures)},
       {"work.setup_s", "time spent before the first step", work(&Work::setup_seconds)},

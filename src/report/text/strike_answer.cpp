@@ -59,9 +59,11 @@ Answer strike_answer(const Case& input, const Result& result) {
   const std::string reached = duration_text(result.outcome.time),
                     end = duration_text(input.end_time);
   const std::string others = others_in_scene(scene);
+  const std::size_t n = result.strikes.size();
   return {"strike",
           fmt::format(
-              "{}, {}{}", striker_words(scene, contact_words(input)),
+              "{}{}, {}{}", n > 1 ? fmt::format("the last of {}: ", n) : "",
+              striker_words(scene, contact_words(input)),
               scene.beam.fixed
                   ? std::string("on a plane that does not move")
                   : fmt::format("at {} of a {}-{} beam of {}", where, name_of(scene.beam.ends[0]),

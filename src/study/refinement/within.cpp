@@ -37,18 +37,27 @@ constexpr double usual_refinement = 2.0;
 constexpr double largest_refinement = 4.0;  // while less than half of the sub-impacts are certain
 // Factor on the refinement that follows from the stated error.
 constexpr double margin = 1.1;
-// A step that moves every mode in closed form takes as long as these evaluations.
-constexpr double evaluations_per_step_in_modes = 3.0;
 // Evaluations of a method that explicit contact takes per step, and the phase of the highest
 // frequency that one covers.
 constexpr double evaluations_per_explicit_step = 8.0;
 constexpr double phase_per_explicit_step = 2.0;
+// A level that takes this share of the work allowed keeps rows, rather than to be run again.
+constexpr double share_of_costly_level = 0.1;
 
-// Of a run and those beside it, known beforehand if its method has fixed steps; else nothing.
-double work_of_fixed_steps(const Case& input) {
+// Of a run and those beside it, as far as it is known beforehand: of fixed steps, or of those that
+// the mesh leaves to explicit methods where a section might yield; else nothing.
+double work_of_steps(const Case& input) {
+  constexpr double share_taken = 0.25;  // by explicit methods: measured
   const ResolvedSettings used = resolve(input).settings();
-  if (!used.step) return 0.0;
-  return work_with_others * evaluation_cost(input) * input.end_time / *used.step *
+  const Method method = input.solver.method;
+  double evaluations = 0.0;
+  if (used.step) {
+    evaluations = input.end_time / *used.step;
+  } else if (may_yield(input) && (method == Method::erk || method == Method::nystrom)) {
+    evaluations = share_taken * input.end_time * used.highest_frequency *
+                  evaluations_per_explicit_step / phase_per_explicit_step;
+  }
+  return work_with_others * evaluation_cost(input) * evaluations *
          static_cast<double>(used.n_unknowns);
 }
 
@@ -59,7 +68,7 @@ double work_limit_of(const Case& input) {
 // The coarsest mesh worth a run or, where that would take more work than is allowed, a coarser one.
 Case affordable_first(const Refinement& refinement, double work_limit) {
   const Case& first = refinement.first();
-  const double work = work_of_fixed_steps(first);
+  const double work = work_of_steps(first);
   if (refinement.fixed_key() || work <= work_limit) return first;
   return refinement.resized(first, std::pow(work_limit / work, 1.0 / usual_growth)).value_or(first);
 }
@@ -235,11 +244,12 @@ class Search {
     if (refinement_->fixed_key()) return true;
     if (!best_) {
       const double with_next = 1.0 + std::pow(least_refinement, usual_growth);
-      return with_next * work_of_fixed_steps(next) > work_limit_;
+      return with_next * work_of_steps(next) > work_limit_;
     }
     const double ratio = static_cast<double>(mesh_count(next)) / mesh_count(best_->input);
-    const double after = work_ + work_of_next(ratio) + work_of_next(least_refinement * ratio);
-    if (after > work_limit_) return true;
+    const double work = work_of_next(ratio);
+    const double after = work_ + work + work_of_next(least_refinement * ratio);
+    if (after > work_limit_ || work > share_of_costly_level * work_limit_) return true;
     const double falls = std::pow(ratio, refinement_->order());
     return best_->result.all_certain() && largest_error() / falls <= tolerance_;
   }
@@ -373,7 +383,8 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
   if (open.method && !yields) solver.method = Method::exponential;
   if (open.method && yields) {
     const bool cells = !own_mesh && model.mesh == MeshKind::cells;
-    solver.method = cells ? Method::central_difference : Method::nystrom;
+    solver.method = cells && central_differences_suit(chosen.input) ? Method::central_difference
+                                                                    : Method::nystrom;
   }
   if (open.method) solver.method = method_for_damping(input, solver.method);
   const bool fixed = !open.method && !open.mesh;
@@ -381,31 +392,6 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
                   : yields ? kinks_bound_the_error
                            : elastic_reason(chosen.input);
   return chosen;
-}
-
-double evaluation_cost(const Case& input) {
-  const bool central = input.solver.method == Method::central_difference;
-  const bool yields = may_yield(input);
-  if (input.solver.method == Method::exponential && !yields) return 1.0;
-  const bool in_elements = input.model.mesh != MeshKind::cells;
-  double cost = central ? 1.0 : 2.0;
-  if (!input.scene.beam.damping.is_none()) cost *= 2.0;
-  const auto varies = [](const PointForce& force) { return force.table.size() > 1; };
-  if (std::ranges::any_of(input.scene.beam.forces, varies)) cost *= 4.0;
-  if (yields && input.scene.beam.is_round()) cost *= 2.0;
-  if (yields && in_elements) cost *= 2.0;
-  return cost;
-}
-
-double counted_work(const Case& input, const Result& result) {
-  const Work& work = result.work;
-  auto evaluations = evaluation_cost(input) * static_cast<double>(work.right_hand_sides);
-  if (input.solver.method == Method::exponential) {
-    evaluations +=
-        evaluations_per_step_in_modes * static_cast<double>(work.steps + work.rejected_steps);
-  }
-  return evaluations * static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1)) +
-         result.used.decomposition;
 }
 
 ChosenModel first_choice(const Case& input, const OpenChoices& open) {

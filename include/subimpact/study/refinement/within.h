@@ -39,7 +39,8 @@ JudgedRunMaker maker_of(const WithinOptions& options);
 double evaluation_cost(const Case& input);
 
 /// The cost of a run: evaluations of the right-hand side times their cost and the unknowns of the
-/// beam, with natural modes, the steps in them counted in the same unit (1 to 3 ns).
+/// beam, and ten more for each section that flows; with natural modes, the steps in them counted in
+/// the same unit (1 to 3 ns).
 double counted_work(const Case& input, const Result& result);
 
 /// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
