@@ -7,11 +7,13 @@
 #include "study/judgement/totals.h"
 #include "study/method_choice.h"
 #include "subimpact/case/simulate.h"
+#include "subimpact/study/refinement/within.h"
 
 namespace subimpact {
 
 constexpr int fewest_cells = 60;
-constexpr double most_excess = 20.0;  // of their work over the one wanted
+constexpr double evaluations_per_step = 8.0;  // of an explicit method that adapts its steps
+constexpr double most_excess = 20.0;          // of their work over the one wanted
 
 Case coarse_case(const Case& input, int cells, double end) {
   Case coarse = input;
@@ -42,9 +44,11 @@ int affordable_cells(const Case& input, double end, int most, double work) {
   double needed = 0.0;
   for (int cells = most;; cells = 7 * cells / 10) {
     try {
-      const ResolvedSettings used = resolve(coarse_case(input, cells, end)).settings();
-      const double steps = end / used.step.value_or(used.critical_step);
-      needed = steps * static_cast<double>(used.n_unknowns);
+      const Case coarse = coarse_case(input, cells, end);
+      const ResolvedSettings used = resolve(coarse).settings();
+      const double evaluations =
+          used.step ? end / *used.step : evaluations_per_step * end / used.critical_step;
+      needed = evaluation_cost(coarse) * evaluations * static_cast<double>(used.n_unknowns);
       if (needed <= work) return cells;
     } catch (const InvalidCase&) {  // the run says so
     }

@@ -17,8 +17,8 @@ inline constexpr double hair_opening = 1e-6;
 /// but with the set at the end. A rigid beam has no cells.
 Case coarse_case(const Case& input, int cells, double end);
 
-/// The most cells, up to `most`, with which such a run keeps to the work, in unknowns times steps;
-/// at least some 50; 0 where these would take 20 times as much.
+/// The most cells, up to `most`, with which such a run keeps to the work (counted_work); at least
+/// some 50; 0 where these would take 20 times as much.
 int affordable_cells(const Case& input, double end, int most, double work);
 
 /// Nothing where the case cannot be run.

@@ -2,7 +2,9 @@
 
 #include "subimpact/study/model/model_errors.h"
 #include "elastic_case.h"
+#include "study/model/coarse_strike.h"
 #include "subimpact/case/simulate.h"
+#include "subimpact/study/refinement/within.h"
 #include "testing.h"
 
 namespace subimpact {
@@ -64,6 +66,19 @@ TEST(ModelErrors, TakeNoMoreThanTheyAreWorth) {
   const auto errors = model_errors(input, result);
   ASSERT_TRUE(errors);
   EXPECT_FALSE(part_of(*errors, "shear")->change.parting);
+}
+
+TEST(ModelErrors, AreThoseOfCoarserMeshesWhereDampingMakesEachStepDearer) {
+  Case input = elastic_case(0.6e-3);
+  const auto cells = [&] { return affordable_cells(input, input.end_time, 801, 1e6); };
+  const int without = cells();
+  input.scene.beam.damping.stiffness = 1e-9;
+  const auto work = [&](int n) {
+    const Case coarse = coarse_case(input, n, input.end_time);
+    return counted_work(coarse, simulate(coarse));
+  };
+  EXPECT_LT(work(cells()), 8e6);
+  EXPECT_GT(work(without), 2e7);
 }
 
 TEST(ModelErrors, AreNoneWhereTheRunIsToEnd) {
