@@ -39,6 +39,10 @@ int decimals_for(double value, int digits) {
 }
 
 bool is_below(double value, double error) { return error > std::abs(value); }
+// As they are printed: errors are rounded up.
+bool is_below(const std::string& value, const std::string& error) {
+  return is_below(std::stod(value), std::stod(error));
+}
 
 constexpr std::size_t least_number_width = 4;
 constexpr int digits_if_uncertain = 3;
@@ -145,10 +149,11 @@ Cell cell_of(const ColumnOfTable& column, const Result& result, const SubImpact&
             {}};
   }
   if (error == 0.0 && is_certain) return {exact_text(value, rounding->decimals), {}};
-  if (is_below(value, error)) return {"?", {}};
+  const std::string text = rounded(value, rounding->decimals);
+  if (is_below(value, error) || is_below(text, rounding->error)) return {"?", {}};
   const bool is_large = error > (is_certain ? silent_error : loud_error) * std::abs(value);
   const bool is_shown = !quantity.is_instant ? is_large : is_certain || rounding->decimals < least;
-  return {rounded(value, rounding->decimals), is_shown ? rounding->error : std::string()};
+  return {text, is_shown ? rounding->error : std::string()};
 }
 
 // Puts the decimal points of a column under each other, and words to the right; each text then has
@@ -309,8 +314,11 @@ std::string number_in(const ReadUnit& unit, const Total& total, int most_digits)
   const int most = decimals_for(is_lost ? size + error : size, most_digits);
   const auto rounding = rounding_of(error, most);
   if (!rounding) return with_digits(value, digits_if_uncertain);
-  if (is_lost) return fmt::format("? (at most {})", rounding_of(size + error, most)->error);
-  return fmt::format("{} +- {}", rounded(value, rounding->decimals), rounding->error);
+  const std::string text = rounded(value, rounding->decimals);
+  if (is_lost || is_below(text, rounding->error)) {
+    return fmt::format("? (at most {})", rounding_of(size + error, most)->error);
+  }
+  return fmt::format("{} +- {}", text, rounding->error);
 }
 
 std::string text_of(const Total& total, const Measure& measure) {

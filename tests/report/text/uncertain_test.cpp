@@ -45,6 +45,19 @@ TEST(Rounding, OfAnErrorLargerThanTheValueLeavesTheValueZeroOrOneDigit) {
   EXPECT_EQ(text_of(0.0, 0.3), "0.0 +- 0.3");
 }
 
+TEST(ANumber, IsNotStatedWithAnErrorThatAsPrintedExceedsIt) {
+  int n_stated = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double value = 1e-3 * std::pow(1.0005, i), error = value * (0.3 + 0.0007 * (i % 1001));
+    const std::string text = number_in({}, {value, error}, 6);
+    const std::size_t sign = text.find(" +- ");
+    if (sign == text.npos) continue;
+    ++n_stated;
+    EXPECT_GE(std::stod(text), std::stod(text.substr(sign + 4))) << text;
+  }
+  EXPECT_GT(n_stated, 10'000);
+}
+
 TEST(Rounding, StatesATinyErrorAsOneUnitOfTheLastDecimal) {
   EXPECT_EQ(text_of(201.4763, 1e-12), "201.476300 +- 0.000001");
   EXPECT_EQ(text_of(201.4763, std::numeric_limits<double>::denorm_min()), "201.476300 +- 0.000001");
