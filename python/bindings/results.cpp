@@ -101,8 +101,6 @@ double residual_indentation(const Finished& run) {
   return all.empty() ? 0.0 : all.back().residual_indentation;
 }
 
-double restitution(const Finished& run) { return run.result.restitution.value_or(NAN); }
-
 double striker_energy_share(const Finished& run) {
   return std::pow(run.result.striker_velocity / run.input.scene.bodies().velocity_scale(), 2);
 }
@@ -134,7 +132,7 @@ const Columns<Finished>& swept_run_columns() {
       {"impulse_Ns", &total_impulse},
       {"striker_velocity_m_per_s", member(&Result::striker_velocity)},
       {"beam_mean_velocity_m_per_s", member(&Result::beam_mean_velocity)},
-      {"restitution", &restitution},
+      {"restitution", member(&Result::restitution)},
       {"striker_energy_share", &striker_energy_share},
       {"bending_plastic_J", at_end(&Energies::bending_plastic)},
       {"contact_plastic_J", at_end(&Energies::contact_plastic)},

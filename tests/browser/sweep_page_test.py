@@ -1,6 +1,7 @@
 """The page of a sweep: sweep_page_test.py PROGRAM CASE"""
 
 import base64
+import math
 import subprocess
 
 import browser
@@ -129,6 +130,14 @@ class SweepPage(PageTestCase):
         self.assertTrue(command.startswith(f"subimpact run CASE.toml --out run-{run} "), command)  # there is no base.toml
         self.assertIn(f"--set striker.mass={mass:g}", command)
         self.assertIn("--set 'solver.method=" + method.replace("'", "'\\''") + "'", command)
+
+    def test_its_force_is_drawn_as_pulses_with_the_impulses_of_its_contacts(self):
+        for mean in (0.9, 2 / math.pi, 0.5, 0.2):
+            power = self.js("return RunPanel.powerOfPulse(arguments[0])", mean)
+            exact = math.gamma((power + 1) / 2) / math.gamma(power / 2 + 1) / math.sqrt(math.pi)
+            self.assertAlmostEqual(exact, mean, delta=2e-3)
+        self.click(33)
+        self.assertGreater(self.js(COUNT, self.find("#pulses"), "line1"), 100)
 
     def test_a_run_that_was_refused_shows_why(self):
         self.click(7)

@@ -99,6 +99,7 @@ Json sub_impacts_json(const SweptRuns& runs, std::size_t& n_left_out) {
           {"end_error", packed<float>(rows, &SubImpact::end_error)},
           {"start_scatter", packed<float>(rows, &SubImpact::start_scatter)},
           {"end_scatter", packed<float>(rows, &SubImpact::end_scatter)},
+          {"peak_time", packed<float>(rows, &SubImpact::peak_time)},
           {"peak_force", packed<float>(rows, &SubImpact::peak_force)},
           {"impulse", packed<float>(rows, &SubImpact::impulse)},
           {"max_indentation", packed<float>(rows, &SubImpact::max_indentation)},

@@ -80,10 +80,43 @@ class RunPanel {
       for (const row of byId('sub-impacts').tBodies[0].rows) row.classList.toggle('chosen', Number(row.dataset.row) === index);
       byId('sub-impacts').tBodies[0].rows[index].scrollIntoView({block: 'nearest'});
     });
-    this.timeline.drawPart();
+    this.draw();
   }
 
-  draw() { this.timeline?.drawPart(); }
+  draw() {
+    if (!this.timeline) return;
+    this.timeline.drawPart();
+    this.drawPulses(this.timeline.strike);
+  }
+
+  // Contacts as pulses F sin(pi s)^p, s from 0 to 1/2 at the largest force, and to 1 after it, with the
+  // power p that gives each its impulse.
+  drawPulses({sub_impacts: hits, time_unit: unit}) {
+    const end = hits[hits.length - 1].end, n = 40;
+    const axes = new Axes(byId('pulses'), {
+      x: {range: [-0.02, 1.02].map((share) => share * end * unit.per_second), label: `time, ${unit.name}`},
+      y: {range: [0, 1.06 * Math.max(...hits.map((hit) => hit.peak_force))], label: 'contact force, N'}});
+    axes.frame();
+    axes.inside(() => hits.forEach(({start, end: last, peak_time: top, peak_force: peak, impulse}) => {
+      const power = RunPanel.powerOfPulse(impulse / (peak * (last - start)));
+      const timeAt = (s) => (s < 0.5 ? start + 2 * s * (top - start) : top + (2 * s - 1) * (last - top));
+      axes.line(Array.from({length: n + 1}, (_, i) => [axes.toX(timeAt(i / n) * unit.per_second),
+        axes.toY(peak * Math.max(0, Math.sin(Math.PI * i / n)) ** power)]), {colour: colour('line1'), width: 1.5});
+    }));
+  }
+
+  // The power with which the mean of sin(pi s)^p is `mean`, by bisection of its logarithm.
+  static powerOfPulse(mean) {
+    const meanOf = (power) => Array.from({length: 64}, (_, i) => Math.sin(Math.PI * (i + 0.5) / 64) ** power)
+      .reduce((sum, value) => sum + value) / 64;
+    let low = -5, high = 6;
+    for (let i = 0; i < 40; ++i) {
+      const middle = 0.5 * (low + high);
+      if (meanOf(Math.exp(middle)) > mean) low = middle;
+      else high = middle;
+    }
+    return Math.exp(0.5 * (low + high));
+  }
 }
 
 // A number with the digits that its error leaves, and the error, rounded up.
