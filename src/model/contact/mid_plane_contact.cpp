@@ -93,8 +93,17 @@ double MidPlaneContact::half_width_at(double lambda) const {
 double MidPlaneContact::half_width_of(const Dent& dent, double lambda) const {
   const double above = std::abs(lambda - dent.residual) * (nose_.stiffness / dent.stiffness);
   if (above == 0.0) return 0.0;
-  return inverse_of_power([this](double a) { return elastic_indentation(nose_.stiffness, a); },
-                          above, elastic_starts_(above, std::sqrt(nose_.radius * above)));
+  struct Last {
+    std::uint64_t law = 0;
+    double above = 0.0, a = 0.0;
+  };
+  thread_local Last last;  // force and slope are asked for one after the other
+  if (last.law != serial_ || last.above != above) {
+    const auto curve = [this](double a) { return elastic_indentation(nose_.stiffness, a); };
+    const double guess = std::sqrt(nose_.radius * above);
+    last = {serial_, above, inverse_of_power(curve, above, elastic_starts_(above, guess))};
+  }
+  return last.a;
 }
 
 // A run asks thousands of times for the same dent.

@@ -34,6 +34,23 @@ struct CellChain {
 /// for cells 0, 1, ..., n_kept - 1.
 NaturalModes free_cell_modes(const CellChain& chain, bool symmetric_only, std::size_t n_kept);
 
+/// A chain of equal cells that shear, with free ends (see TimoshenkoMesh).
+struct ShearCellChain {
+  std::size_t n_cells;
+  double spacing;            ///< dx, m
+  double mass_per_length;    ///< rho A, kg/m
+  double rotary_inertia;     ///< J, kg m
+  double bending_stiffness;  ///< E I, N m2
+  double shear_stiffness;    ///< k G A, N
+  double gyration;           ///< r, m, the unit of rotations
+};
+
+/// Its natural modes from one equation in each frequency (docs/theory.md, "Cells that shear"); work
+/// n^2 for n modes. Frequencies ascend, rigid translation and rotation first; shapes have the
+/// unknowns of a TimoshenkoMesh, those of its first half where `symmetric_only`, and are not
+/// normalised.
+NaturalModes shear_cell_modes(const ShearCellChain& chain, bool symmetric_only);
+
 /// A chain of equal Hermite elements (see HermiteMesh).
 struct HermiteChain {
   std::size_t n_elements;    ///< of the whole chain

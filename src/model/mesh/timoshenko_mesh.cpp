@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/mesh/modes.h"
 #include "numerics/lanes.h"
 
 namespace subimpact {
@@ -22,6 +23,7 @@ std::size_t rotations_of_ends(const Beam& beam, bool half) {
 
 // Places nearer to each other than this count as one.
 constexpr double same_place = 1e-9;
+constexpr double rounding = 1e-14;
 
 std::size_t nodes_kept(std::size_t n_cells, bool half) { return half ? n_cells / 2 + 1 : n_cells; }
 
@@ -350,6 +352,22 @@ double TimoshenkoMesh::highest_frequency(double bending_stiffness) const {
   const double b = mass_per_length_ * (shear + bending) + rotary_inertia_ * shear * wave * wave;
   const double c = shear * wave * wave * bending;
   return std::sqrt((b + std::sqrt(std::max(b * b - 4.0 * a * c, 0.0))) / (2.0 * a));
+}
+
+bool TimoshenkoMesh::has_closed_modes() const {
+  const bool alike = symmetric() || std::abs(sides_[1].length / sides_[0].length - 1.0) < rounding;
+  return alike && ends_[0] == EndSupport::free && ends_[1] == EndSupport::free;
+}
+
+NaturalModes TimoshenkoMesh::natural_modes(double bending_stiffness) const {
+  if (!has_closed_modes()) return dense_natural_modes(*this, bending_stiffness);
+  const std::size_t n_cells = sides_[0].n_cells + sides_[1].n_cells + 1;
+  NaturalModes modes =
+      shear_cell_modes({n_cells, sides_[0].length, mass_per_length_, rotary_inertia_,
+                        bending_stiffness, shear_stiffness_per_length_, gyration_},
+                       symmetric());
+  normalise(modes, mass());
+  return modes;
 }
 
 std::string TimoshenkoMesh::description() const {

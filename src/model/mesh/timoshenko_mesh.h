@@ -45,6 +45,9 @@ class TimoshenkoMesh final : public BeamMesh {
   std::optional<SparseFunctional> rotation_at(double x) const override { return at(rotations_, x); }
   /// The upper branch of the infinite grid of the shorter cells at its shortest wave.
   double highest_frequency(double bending_stiffness) const override;
+  /// From one equation in each frequency if both ends are free and all cells alike.
+  NaturalModes natural_modes(double bending_stiffness) const override;
+  bool has_closed_modes() const override;
   std::string description() const override;
 
  private:

@@ -86,18 +86,21 @@ inline void expect_mesh_contract(const BeamMesh& mesh, double rounding = 1e-13) 
 
 /// Natural modes are orthonormal in the mass matrix, Phi^T Mass Phi = I, and satisfy the equations
 /// of motion, K phi = omega^2 Mass phi, to `rounding` of the size of the highest mode's terms.
-inline void expect_modes(const BeamMesh& mesh, double stiffness, double rounding) {
+inline void expect_modes(const BeamMesh& mesh, double stiffness, double rounding,
+                         double orthogonality = 1e-12) {
   const NaturalModes modes = mesh.natural_modes(stiffness);
   std::vector<double> kappa(mesh.n_sections()), force(modes.size()), inertia(modes.size());
   const double highest = modes.frequencies.back() * modes.frequencies.back();
   for (std::size_t k = 0; k < modes.size(); ++k) {
     mesh.mass().multiply(modes.shape(k), inertia);
     for (std::size_t j = 0; j <= k; ++j) {
-      EXPECT_NEAR(dot(inertia, modes.shape(j)), j == k ? 1.0 : 0.0, 1e-12) << j << ", " << k;
+      EXPECT_NEAR(dot(inertia, modes.shape(j)), j == k ? 1.0 : 0.0, orthogonality)
+          << j << ", " << k;
     }
     mesh.curvatures(modes.shape(k), kappa);
     for (double& x : kappa) x *= stiffness;
     mesh.bending_forces(kappa, force);
+    mesh.add_shear_forces(modes.shape(k), force);
     const double w2 = modes.frequencies[k] * modes.frequencies[k];
     double residual = 0.0, size = 0.0;
     for (std::size_t i = 0; i < modes.size(); ++i) {

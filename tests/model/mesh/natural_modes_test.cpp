@@ -3,6 +3,7 @@
 #include "mesh/mesh_contract.h"
 #include "model/mesh/cell_mesh.h"
 #include "model/mesh/modal_mesh.h"
+#include "model/mesh/timoshenko_mesh.h"
 #include "print.h"
 
 namespace subimpact {
@@ -54,6 +55,53 @@ INSTANTIATE_TEST_SUITE_P(
         Chain{20, CellMesh::Extent::whole, BeamTheory::rayleigh, CellMesh::Spacing::points},
         Chain{501, CellMesh::Extent::whole, BeamTheory::euler_bernoulli}),
     NamedAsPrinted{});
+
+struct ShearChain {
+  std::size_t n_cells;
+  TimoshenkoMesh::Extent extent;
+  double shear_share = 1.0;  // of the published beam's k G
+};
+
+std::ostream& operator<<(std::ostream& out, const ShearChain& chain) {
+  return out << chain.n_cells
+             << (chain.extent == TimoshenkoMesh::Extent::half ? " half " : " whole ")
+             << static_cast<int>(1000.0 * chain.shear_share) << " thousandths of k G";
+}
+
+class ModesOfCellsThatShear : public testing::TestWithParam<ShearChain> {
+ protected:
+  TimoshenkoMesh mesh() const { return {beam(), 0.5, GetParam().n_cells, GetParam().extent}; }
+  Beam beam() const {
+    Beam beam = paper_beam(BeamTheory::timoshenko);
+    beam.poisson = 0.3;
+    beam.shear_coefficient = GetParam().shear_share * 0.85;
+    return beam;
+  }
+};
+
+TEST_P(ModesOfCellsThatShear, FromOneEquationHaveTheDenseDecompositionsFrequencies) {
+  const TimoshenkoMesh chain = mesh();
+  ASSERT_TRUE(chain.has_closed_modes());
+  const NaturalModes closed = chain.natural_modes(beam().bending_stiffness());
+  const NaturalModes dense = dense_natural_modes(chain, beam().bending_stiffness());
+  EXPECT_EQ(closed.size(), chain.n_unknowns());
+  expect_near(closed.frequencies, dense.frequencies, 0.0, 1e-11);
+}
+
+TEST_P(ModesOfCellsThatShear, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
+  // Next to the top of a band an angle loses digits as n^2.
+  expect_modes(mesh(), beam().bending_stiffness(), 5e-11, 5e-11);
+}
+
+INSTANTIATE_TEST_SUITE_P(, ModesOfCellsThatShear,
+                         testing::Values(ShearChain{5, TimoshenkoMesh::Extent::half},
+                                         ShearChain{5, TimoshenkoMesh::Extent::whole},
+                                         ShearChain{101, TimoshenkoMesh::Extent::half},
+                                         ShearChain{101, TimoshenkoMesh::Extent::whole},
+                                         ShearChain{101, TimoshenkoMesh::Extent::half, 0.01},
+                                         ShearChain{101, TimoshenkoMesh::Extent::whole, 50.0},
+                                         ShearChain{501, TimoshenkoMesh::Extent::half}),
+                         NamedAsPrinted{});
 
 class ModalCoordinates : public testing::Test {
  protected:

@@ -1,0 +1,203 @@
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "model/mesh/modes.h"
+#include "numerics/bracketed_root.h"
+
+// A chain whose ends do not turn (phi = 0 at the end faces, no shear force) has waves for modes.
+// A free end is such an end without the section of its end cell, and with the rotary inertia of
+// half a cell more, both on the rotation of the first face: one equation for each parity, between
+// whose poles, the frequencies squared of the waves, lies one root each (docs/theory.md).
+
+namespace subimpact {
+namespace {
+
+using std::numbers::pi;
+using Complex = std::complex<double>;
+using Array = Eigen::ArrayXd;
+
+// Frequencies squared of waves, and their part in the rotation of the first face.
+struct Poles {
+  Array lambda, weight;
+};
+
+Poles poles_of(const ShearCellChain& chain, bool symmetric) {
+  struct Pole {
+    double lambda, weight;
+  };
+  std::vector<Pole> poles;
+  const auto n = static_cast<double>(chain.n_cells);
+  for (std::size_t k = symmetric ? 2 : 1; k < chain.n_cells; k += 2) {
+    const double theta = pi * static_cast<double>(k) / n;
+    const double g = 2.0 * std::sin(0.5 * theta) / chain.spacing;
+    // Of w and phi, scaled by the roots of their inertia.
+    const double shear = chain.shear_stiffness * g * g / chain.mass_per_length;
+    const double bend = chain.bending_stiffness * g * g / chain.rotary_inertia;
+    const double turn = bend + chain.shear_stiffness / chain.rotary_inertia;
+    const double coupling =
+        chain.shear_stiffness * g / std::sqrt(chain.mass_per_length * chain.rotary_inertia);
+    const double half = 0.5 * (turn - shear);
+    const double root = std::hypot(half, coupling);
+    const double high = 0.5 * (shear + turn) + root;
+    const double more = 0.5 * (1.0 + std::abs(half) / root);
+    const double less = coupling * coupling / (2.0 * root * (root + std::abs(half)));
+    const double unit =
+        4.0 * std::pow(std::sin(theta), 2) / (chain.rotary_inertia * chain.spacing * n);
+    poles.push_back({shear * bend / high, unit * (half > 0.0 ? less : more)});
+    poles.push_back({high, unit * (half > 0.0 ? more : less)});
+  }
+  std::ranges::sort(poles, {}, &Pole::lambda);
+  const auto size = static_cast<Eigen::Index>(poles.size());
+  Poles sorted{Array(size), Array(size)};
+  for (Eigen::Index i = 0; i < size; ++i) {
+    sorted.lambda[i] = poles[static_cast<std::size_t>(i)].lambda;
+    sorted.weight[i] = poles[static_cast<std::size_t>(i)].weight;
+  }
+  return sorted;
+}
+
+// The root below pole i: of sum weight / (pole - lambda) = 1 / (a + b lambda), times the distances
+// to the poles beside it, in which it has no poles. Measured from the nearer of them.
+double root_below(const Poles& poles, Eigen::Index i, double a, double b) {
+  const Eigen::Index n = poles.lambda.size();
+  const bool has_lower = i > 0;
+  const double low = has_lower ? poles.lambda[i - 1] : 0.0;
+  const double low_weight = has_lower ? poles.weight[i - 1] : 0.0;
+  const double gap = poles.lambda[i] - low;
+  const Eigen::Index n_before = has_lower ? i - 1 : 0;
+  const Eigen::Index n_after = n - i - 1;
+  const auto condition = [&](double origin, double from_low, double from_high, double offset) {
+    const auto sum = [&](Eigen::Index first, Eigen::Index count) {
+      return count > 0 ? (poles.weight.segment(first, count) /
+                          (poles.lambda.segment(first, count) - origin - offset))
+                             .sum()
+                       : 0.0;
+    };
+    const double rest = sum(0, n_before) + sum(i + 1, n_after) - 1.0 / (a + b * (origin + offset));
+    const double lower = has_lower ? from_low : 1.0;
+    return rest * lower * from_high - low_weight * from_high + poles.weight[i] * lower;
+  };
+  const auto above = [&](double x) { return condition(low, x, gap - x, x); };
+  const auto below = [&](double x) { return condition(poles.lambda[i], gap - x, x, -x); };
+  if (above(0.5 * gap) > 0.0) return low + root_in(above, 0.0, 0.5 * gap);
+  return poles.lambda[i] - root_in(below, 0.0, 0.5 * gap);
+}
+
+// Every second value from `first` on, up to `end`: the real parts of value, value ratio, value
+// ratio^2, ..., as far as they are felt. In real numbers: products of complex ones look for NaN.
+void add_powers(double* first, const double* end, std::ptrdiff_t step, Complex value,
+                Complex ratio) {
+  constexpr double felt = 1e-280;  // numbers with fewer digits are slow
+  const double decay = -std::log(std::abs(ratio));
+  const double range = std::log(std::abs(value)) - std::log(felt);
+  auto n = (end - first) / step;
+  if (!(range > static_cast<double>(n) * decay)) n = static_cast<std::ptrdiff_t>(range / decay);
+  double a = value.real(), b = value.imag();
+  for (double* at = first; n > 0; --n, at += step) {
+    *at += a;
+    const double turned = a * ratio.real() - b * ratio.imag();
+    b = a * ratio.imag() + b * ratio.real();
+    a = turned;
+  }
+}
+
+// Adds one of the two waves of a frequency to the displacements and rotations from the end to the
+// middle. `square` is g^2, `rest` g^2 - lambda rho A / kGA.
+void add_wave(const ShearCellChain& chain, double square, double rest, bool symmetric,
+              double factor, std::span<double> shape) {
+  const double s = 0.25 * square * chain.spacing * chain.spacing;
+  const double sine = std::sqrt(std::abs(s));
+  const Complex half = s < 0.0   ? Complex(0.0, std::asinh(sine))  // theta / 2
+                       : s < 1.0 ? Complex(std::asin(sine), 0.0)
+                                 : Complex(0.5 * pi, std::acosh(sine));
+  const auto power = [&](std::size_t count) {  // of e^(i theta / 2)
+    const auto n = static_cast<double>(count);
+    return std::polar(std::exp(-n * half.imag()), n * half.real());
+  };
+  const double sign = symmetric ? 1.0 : -1.0;
+  const std::size_t from_end_to_end = 2 * chain.n_cells;
+  const Complex scale = factor / (1.0 - sign * power(from_end_to_end));
+  const Complex g = (s < 0.0 ? Complex(0.0, 2.0) : Complex(2.0)) * sine / chain.spacing;
+  const Complex units[] = {Complex(0.0, -1.0) * g * scale, chain.gyration * rest * scale};
+  const Complex ratio = power(2);
+  double* const begin = shape.data();
+  for (std::size_t kind = 0; kind < 2; ++kind) {  // displacements, rotations
+    const std::size_t n = (shape.size() - kind + 1) / 2, last = kind + 2 * (n - 1);
+    add_powers(begin + kind, begin + kind + 2 * n, 2, units[kind] * power(1 + kind), ratio);
+    const double of_far = kind == 0 ? sign : -sign;
+    add_powers(begin + last, begin + kind - 2, -2,
+               of_far * units[kind] * power(from_end_to_end - 1 - last), ratio);
+  }
+}
+
+void fill_shape(const ShearCellChain& chain, double lambda, bool symmetric,
+                std::span<double> shape) {
+  const double inertia = lambda * chain.mass_per_length;
+  const double of_shear = inertia / chain.shear_stiffness;
+  const double of_bending = inertia / chain.bending_stiffness;
+  const double middle = 0.5 * (lambda * chain.rotary_inertia / chain.bending_stiffness - of_shear);
+  const double root = std::sqrt(middle * middle + of_bending);
+  const double first = middle > 0.0 ? middle + root : of_bending / (root - middle);
+  const double second = -of_bending / first;
+  const double square = first + of_shear;
+  const double other = of_shear * (lambda * chain.rotary_inertia - chain.shear_stiffness) /
+                       (chain.bending_stiffness * square);
+  // Shear forces at the end cancel.
+  add_wave(chain, square, first, symmetric, 1.0, shape);
+  add_wave(chain, other, second, symmetric, -1.0, shape);
+}
+
+}  // namespace
+
+NaturalModes shear_cell_modes(const ShearCellChain& chain, bool symmetric_only) {
+  const double dx = chain.spacing;
+  const double a = chain.bending_stiffness / dx;
+  const double b = 0.5 * chain.rotary_inertia * dx;
+  struct Root {
+    double lambda;
+    bool symmetric;
+  };
+  std::vector<Root> roots;
+  for (const bool symmetric : {true, false}) {
+    if (!symmetric && symmetric_only) break;
+    const Poles poles = poles_of(chain, symmetric);
+    // The first antisymmetric root is the rigid rotation's.
+    for (Eigen::Index i = symmetric ? 0 : 1; i < poles.lambda.size(); ++i) {
+      roots.push_back({root_below(poles, i, a, b), symmetric});
+    }
+  }
+  std::ranges::sort(roots, {}, &Root::lambda);
+
+  const std::size_t n_rigid = symmetric_only ? 1 : 2;
+  const std::size_t n = symmetric_only ? chain.n_cells : 2 * chain.n_cells - 1;
+  const std::size_t n_half = chain.n_cells;
+  NaturalModes modes;
+  modes.frequencies.assign(n_rigid, 0.0);
+  modes.shapes.assign(n * n, 0.0);
+  const auto shape = [&](std::size_t k) { return std::span(modes.shapes).subspan(k * n, n); };
+  const double middle = 0.5 * (static_cast<double>(chain.n_cells) - 1.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool is_node = i % 2 == 0;
+    shape(0)[i] = is_node ? 1.0 : 0.0;
+    if (symmetric_only) continue;
+    shape(1)[i] = is_node ? (0.5 * static_cast<double>(i) - middle) * dx : chain.gyration;
+  }
+  for (std::size_t k = 0; k < roots.size(); ++k) {
+    modes.frequencies.push_back(std::sqrt(roots[k].lambda));
+    const std::span<double> values = shape(n_rigid + k);
+    const bool symmetric = roots[k].symmetric;
+    fill_shape(chain, roots[k].lambda, symmetric, values.first(n_half));
+    for (std::size_t i = n_half; i < n; ++i) {
+      const bool alike = symmetric == (i % 2 == 0);
+      values[i] = (alike ? 1.0 : -1.0) * values[n - 1 - i];
+    }
+  }
+  return modes;
+}
+
+}  // namespace subimpact
