@@ -14,8 +14,8 @@ constexpr double near_share = 0.5;
 // The cubic is assumed to have the height of a minimum below the ends of the step right to this
 // part of the height; margins are refined to this part of themselves.
 constexpr double uncertain_share = 0.5;
-constexpr double margin_accuracy = 1e-2;
-constexpr int most_refinements = 3;
+constexpr double margin_accuracy = 1e-5;
+constexpr int most_refinements = 6;
 
 // The gap at the ends of a step, of its cubic at s.
 struct GapStep {
