@@ -38,9 +38,10 @@ class Key:
 _KEYS = {key["name"]: Key(**key) for key in _core.keys()}
 
 
-def keys() -> dict[str, Key]:
-    """All keys of a case by their names, as `subimpact keys` lists them."""
-    return dict(_KEYS)
+def keys(part: str = "") -> dict[str, Key]:
+    """The keys of a case by their names, as `subimpact keys` lists them; those with `part` in name or meaning."""
+    part = part.lower()
+    return {name: key for name, key in _KEYS.items() if part in name or part in key.meaning.lower()}
 
 
 @dataclass(frozen=True)
@@ -187,6 +188,11 @@ class Case:
 
     def __iter__(self) -> Iterator[str]:
         return iter(_KEYS)
+
+    def get(self, key: str, otherwise: Any = None) -> Any:
+        """The value of a key, or `otherwise` where it has none."""
+        value = self[key]
+        return otherwise if value is None else value
 
     def keys(self) -> list[str]:
         """The names of all keys, so that dict(case) has their values."""

@@ -49,6 +49,8 @@ def run(
     what that leaves of event times: columns start_scatter_s and end_scatter_s, `n_predictable`.
     """
     case = as_case(case)
+    if error_bars not in (None, "off", "time", "all"):
+        raise ValueError(f"error_bars is {error_bars!r}; allowed: None, \"off\", \"time\", \"all\"")
     if within is not None:
         case = case.changed({"accuracy.event_times": within})
         if case["accuracy.event_times"] > case["time.end"]:

@@ -187,6 +187,21 @@ def all_files():
     yield File("no-unit.csv", ("time,force\n" + rows(1e3, 1e-3, force_format="{:.6f}")).encode(), {"units": ("ms", "kN")}, "units=")
     yield File("acceleration-g.csv", acceleration("g", 1 / GRAVITY).encode(), {"mass": MASS, "sign": -1}, "mass=")
     yield File("acceleration-si.csv", acceleration("m/s²", -1.0).encode(), {"mass": "201 g"}, "mass=")
+    yield File("thousands-rate.txt", ("Abtastrate: 500.000 Hz\nNr;Kraft [N]\n" + "".join(f"{i};{f:.4f}\n" for i, f in enumerate(FORCES))
+               .replace(".", ",")).encode(), {"interval": "2us"}, "interval=", begin=0.0)
+    yield File("grouped-rate.txt", interval_in_a_comment("Sample rate: 500,000.0 Hz").encode(), {"interval": "2us"}, "interval=", begin=0.0)
+    yield File("blank-rate.txt", interval_in_a_comment("Sample rate: 500 000 Hz").encode(), begin=0.0)
+    yield File("epoch.csv", ("Time [s],Force [N]\n" + "".join(f"1764324672.{1e7 * (t - BEGIN):07.0f},{f:.4f}\n"
+               for t, f in zip(TIMES, FORCES))).encode(), begin=0.0)
+    yield File("amplifier.csv", ("Sensitivity: 2.27 mV/N\nAmplifier gain: 10\ntime_us,force_V\n"
+               + rows(1e6, 2.27e-2, force_format="{:.7f}")).encode(), {"scale": 0.1}, "gain")
+    yield File("sensitivity-in-cells.csv", ("Sensitivity,2.27,mV/N\nTime (s),CH1 (V)\n"
+               + rows(1, 2.27e-3, time_format="{:.6f}", force_format="{:.8f}")).encode())
+    yield File("calibration.csv", ("Gain: 440.528634 N/V\nTime (s),CH1 (V)\n"
+               + rows(1, 2.27e-3, time_format="{:.6f}", force_format="{:.8f}")).encode())
+    yield File("fortran.dat", ("t [us]  F [N]\n" + rows(1e6, 1, "  ", force_format="{:.6e}").replace("e+", "D+").replace("e-", "D-")).encode())
+    yield File("blanks-without-a-cell.dat", ("time_ms  disp_mm  force_N  trig\n" + "".join(
+        f"{1e3 * t:.4f} {'1.25' if i != 120 else '    '} {f:.5f} 7\n" for i, (t, f) in enumerate(zip(TIMES, FORCES)))).encode(), n=N - 1)
     yield File("rate.txt", interval_in_a_comment("Sampling rate [kHz]: 500").encode(), begin=0.0)
     yield File("no-interval.txt", interval_in_a_comment("channel 2").encode(), {"interval": "2us"}, "interval=", begin=0.0)
     yield File("sensitivity.csv", ("# Sensitivity: 2,27 mV/N\nt (ms);U (mV)\n" + rows(1e3, 2.27, ";", comma=True)).encode())

@@ -90,6 +90,10 @@ REFUSED = {
     "whose rate is not that of its times": ("# Sample rate: 500 kHz\nTime (s);Force (N)\n" + rows(1e6, 1, ";"), "units="),
     "with a mark within a number": ("time_us,force_N\n" + rows(1e6, 1).replace("-90.0000,0.0", "-90.0000,12#3"), '"12#3'),
     "with every tenth sample": ("# Sample rate: 1 MHz\n# Decimation: 10\nForce (N)\n" + "1.0\n" * 9, "interval="),
+    "divided by a number": ("time_us,force/1000 [N]\n" + rows(1e6, 1e-3), "units="),
+    "of times in millionths": ("time x 1e6 (s),force (N)\n" + rows(1e6, 1), "units="),
+    "of negative forces by name": ("time_us,-force (N)\n" + rows(1e6, 1), "units="),
+    "of logarithms": ("time_us,log force (N)\n" + rows(1e6, 1), "units="),
     "of words": ("no numbers at all\n", "no rows of numbers"),
 }
 
@@ -203,6 +207,12 @@ def test_neighbours_that_resemble_each_other_widen_the_error(strike):
 def test_an_option_against_the_file_is_said(tmp_path):
     (tmp_path / "kN.csv").write_text("time_us,force_kN\n" + rows(1e6, 1e-3))
     assert any("the file says kN" in words for words in measured.read(tmp_path / "kN.csv", units="N").assumed)
+    (tmp_path / "MSO.csv").write_text("Vertical Units,V\ntime_us,CH1\n" + rows(1e6, 1))
+    assert any("the file says V" in words for words in measured.read(tmp_path / "MSO.csv", units="us,N").assumed)
+    assert "times 2" in repr(measured.read(tmp_path / "kN.csv", scale=2))
+    for option in ({"sensitivity": "2 mV/N"}, {"mass": 0.2}, {"mass": "1,000 g"}, {"decimal": ";"}, {"skip": -1}, {"interval": "1,000 us"}):
+        with pytest.raises(si.ResultsError, match=next(iter(option))):
+            measured.read(tmp_path / "kN.csv", **option)
     (tmp_path / "V.csv").write_text("# Sensitivity: 2.27 mV/N\ntime_us,U (mV)\n" + rows(1e6, 2.27))
     assert any("the file says 2.27 mV/N" in words for words in measured.read(tmp_path / "V.csv", sensitivity="3 mV/N").assumed)
 
@@ -213,6 +223,49 @@ def test_an_option_against_the_file_is_said(tmp_path):
 def test_what_is_no_signal_is_refused(times, forces, quantity, words):
     with pytest.raises(si.ResultsError, match=words):
         measured.Signal(times, forces, quantity=quantity)
+
+
+def test_a_signal_is_read_from_open_files_and_frames_and_compares(tmp_path):
+    import io
+
+    text = "time_us,force_N\n" + rows(1e6, 1)
+    signal = measured.read(io.StringIO(text))
+    assert signal == measured.read(io.BytesIO(text.encode())) and len(signal) == len(TIMES)
+    frame = signal.to_pandas()
+    again = measured.read(frame.to_frame())
+    assert frame.name == "force_N" and np.allclose(again.times, signal.times, rtol=1e-15) and (again.forces == signal.forces).all()
+    assert signal != measured.Signal(signal.times, 2 * signal.forces) and signal.plot().get_xlabel() == "time, µs"
+
+
+def test_a_record_too_coarse_for_the_run_is_refused(strike, elastic):
+    coarse = measured.Signal(1e-3 * np.arange(300), 100.0 * (np.arange(300) % 50))
+    for look in (measured.align, lambda run, signal: measured.fit(elastic, signal, "striker.velocity")):
+        with pytest.raises(si.ResultsError, match="units="):
+            look(strike, coarse)
+    with pytest.raises(TypeError, match="Result"):
+        measured.align(coarse, strike)
+
+
+def test_a_fit_tells_what_the_force_does_not_determine(strike, elastic):
+    quick = elastic.changed({"time.end": 3e-4, "output.sections": [], "output.points": [], "output.shapes": 0.0})
+    signal = signal_of(strike, noise=0.01, end=3e-4)
+    for key in ("scene.gravity",):
+        with pytest.raises(si.ResultsError, match=f"does not depend on {key}"):
+            measured.fit(quick.changed({key: 9.81}), signal, ["striker.velocity", key])
+    bounded = measured.fit(quick.changed({"striker.velocity": 15.0}), signal, "striker.velocity",
+                           bounds={"striker.velocity": ("14 m/s", 15.2)})
+    assert bounded.at_bound == ("striker.velocity",) and "end of its bounds" in repr(bounded)
+    assert measured.align(strike, signal, shift="0 us").shift_error is None
+
+
+def test_a_coarse_record_of_the_model_itself_gives_its_keys(strike, elastic):
+    quick = elastic.changed({"time.end": 3e-4, "output.sections": [], "output.points": [], "output.shapes": 0.0,
+                             "output.interval": 5e-8})
+    run = si.run(quick, error_bars="off", model_errors=False)
+    times = 1e-6 * np.arange(-50, 290)
+    exact = measured.Signal(times, np.interp(times, run.history["time_s"], run.history["force_N"], left=0.0))
+    found = measured.fit(quick.changed({"striker.velocity": 15.0}), exact, "striker.velocity")
+    assert found.values[0] == pytest.approx(15.9, rel=2e-6)
 
 
 def test_a_force_in_another_unit_is_doubted(strike):

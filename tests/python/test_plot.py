@@ -194,10 +194,12 @@ def test_what_a_figure_does_not_draw_is_refused_with_what_it_draws(run):
 
 
 def test_a_histogram_marks_mean_and_quantiles():
-    forces = np.arange(101.0)
+    forces = 1e3 * np.arange(101.0)
     axes = plot.histogram({"max_force_N": forces}, None, "max_force_N")
-    assert axes.lines[0].get_xdata()[0] == 50 and "5 %: 5, 95 %: 95" in axes.get_title()
+    assert axes.lines[0].get_xdata()[0] == pytest.approx(50) and axes.get_xlabel() == "max force, kN" and "5 %: 5, 95 %: 95" in axes.get_title()
     assert sum(bar.get_height() for bar in axes.containers[0]) == 101
+    with pytest.raises(TypeError, match="column="):
+        plot.histogram({"max_force_N": forces}, "max_force_N")
 
 
 def test_studies_are_drawn_of_their_tables(tmp_path):

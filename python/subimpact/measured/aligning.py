@@ -24,6 +24,7 @@ Found = Union[float, Literal["find"], None]
 _LIKE_EACH_OTHER = 0.9  # correlation of two forces of the same strike
 _IN_CONTACT = 0.05  # of the largest force
 _OCTAVE = np.log(2.0)
+_FEWEST = 20  # samples within the run
 #: Standard errors in an error that is stated.
 N_ERRORS = 3.0
 
@@ -61,7 +62,11 @@ def covariance_of(jacobian: Numbers, residuals: Numbers) -> Numbers:
     from scipy.signal import correlate, fftconvolve
 
     n, k = jacobian.shape
-    inverse = np.linalg.pinv(jacobian.T @ jacobian)
+    sizes: Numbers = np.linalg.norm(jacobian, axis=0)
+    some = np.where(sizes > 0.0, sizes, 1.0)
+    scaled = jacobian / some  # columns of one size: none is lost beside another
+    inverse: Numbers = np.linalg.pinv(scaled.T @ scaled, hermitian=True) / np.outer(some, some)
+    inverse[sizes == 0.0, sizes == 0.0] = np.inf
     white = inverse * (residuals @ residuals / max(n - k, 1))
     lags = min(int(np.sqrt(n)), n - 1)
     products = correlate(residuals, residuals, "full", "fft")[n - 1 - lags : n + lags] / n
@@ -285,11 +290,19 @@ def _check_pushes(forces: Numbers, whose: str, remedy: str) -> None:
         raise ResultsError(f"the {whose} force lies between {low:.4g} and {high:.4g} N; {remedy}")
 
 
-def align(result: Result, signal: Signal, shift: float | None = None, gain: float | Literal["find"] = 1.0,
+def in_seconds(shift: float | str | None) -> float | None:
+    """A shift such as 1e-5 or "10us". Raises ResultsError."""
+    time = value_in("time", shift) if isinstance(shift, str) else shift
+    if shift is not None and (time is None or not np.isfinite(time)):
+        raise ResultsError(f"shift is {shift!r}; allowed: s, such as 1e-5, or \"10us\"")
+    return None if time is None else float(time)
+
+
+def align(result: Result, signal: Signal, shift: float | str | None = None, gain: float | Literal["find"] = 1.0,
           low_pass: Found = None, gauge: int = 1) -> Alignment:
     """Compares a measured force, or a strain, with the history of a run, whose force is zero before it begins.
 
-    shift     s, by which the measured time is later than that of the run; None: it is found, where
+    shift     s, or "50us", by which the measured time is later than that of the run; None: it is found, where
               the two forces differ least
     gain      measured over true force; "find": by least squares
     low_pass  Hz, the cut-off of the transducer, by which the computed force is filtered: `low_passed`;
@@ -303,7 +316,13 @@ def align(result: Result, signal: Signal, shift: float | None = None, gain: floa
         low_pass = value_in("frequency", low_pass) or 0.0
     if low_pass is not None and low_pass != "find" and not 0.0 < float(low_pass) < np.inf:
         raise ResultsError("low_pass is no frequency; allowed: Hz above 0, \"20kHz\", or \"find\"")
+    if not (isinstance(result, Result) and isinstance(signal, Signal)):
+        raise TypeError(f"align() has a {type(result).__name__} and a {type(signal).__name__}; allowed: a subimpact.Result, a Signal")
+    shift = in_seconds(shift)
     raw = curve_of(result, column=column_of(signal, gauge))
+    if (raw.times[-1] - raw.times[0]) < _FEWEST * signal.interval:
+        raise ResultsError(f"samples are {1e6 * signal.interval:.4g} us apart, and the run is over after "
+                           f"{1e6 * (raw.times[-1] - raw.times[0]):.4g} us; give units=us,N if the times have another unit, or a finer record")
     if signal.quantity == "force":
         _check_pushes(raw.forces, "computed", "a run without contact has no force to compare with a measurement")
         _check_pushes(signal.forces, "measured", "contact pushes, and its force is positive here: read it with sign=-1")

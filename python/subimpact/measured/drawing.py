@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from .aligning import Alignment
+    from .reading import Signal
 
     Numbers = npt.NDArray[np.float64]
 
@@ -46,6 +47,14 @@ def _line(axes: Any, quantity: str, times: Numbers, forces: Numbers, begin: floa
     inside = (times >= begin) & (times <= end)
     axes.plot(*thinned(per_second * times[inside], per_newton * forces[inside], _MOST_DRAWN), **options)
     axes.set(xlim=(per_second * begin, per_second * end), xlabel=f"time of the run, {time}", ylabel=f"{quantity}, {force}")
+
+
+@figure("a", height=3.2)
+def draw_signal(signal: Signal, axes: Any) -> None:
+    """A measured force, or a strain, on its own time."""
+    t, f = signal.times, signal.forces
+    _line(axes, signal.quantity, t, f, float(t[0]), float(t[-1]), float(np.abs(f).max()), color=COLOURS[1])
+    axes.set_xlabel(axes.get_xlabel().replace("time of the run", "time"))
 
 
 @figure("a", height=3.2)

@@ -14,7 +14,7 @@ from .._errors import CaseError, ResultsError
 from ..case import Case, as_case, keys as all_keys
 from ..result import Result
 from ..running import run
-from .aligning import Alignment, align, column_of, curve_of, solve
+from .aligning import Alignment, align, column_of, curve_of, in_seconds, solve
 from .reading import Signal
 from .words import rounded
 
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 #: Where what the fit changes begins: the first step of the solver is about as large.
 _BEGIN = 0.1
 _STEP = 1e-3  # of a key, for derivatives; the tolerance of a run is far below
+_FELT = 1e-9  # change of the force that is more than rounding, in its largest value
+_ROWS = 4000  # of a run, between which its force is linear
 
 
 @dataclass(frozen=True, repr=False)
@@ -39,6 +41,7 @@ class Fit:
     alignment: Alignment  #: the measured force beside that of the fitted case
     case: Case  #: the fitted one
     n_runs: int
+    at_bound: tuple[str, ...] = ()  #: keys whose value is an end of what was allowed
 
     def __repr__(self) -> str:
         lines = []
@@ -46,8 +49,9 @@ class Fit:
             scale = 10.0 ** (3 * math.floor(math.log10(abs(value)) / 3)) if value else 1.0
             power = "" if scale == 1.0 else f"e{round(math.log10(scale)):+d}"
             text = rounded(value / scale, error / scale, "").strip().replace(" +-", f"{power} +-") + power
+            bound = ", at the end of its bounds" if key in self.at_bound else ""
             related = " ".join(f"{other:+.2f}" for other in others)
-            lines.append(f"{key:<24}  {text} {all_keys()[key].unit} (standard error); correlation {related}")
+            lines.append(f"{key:<24}  {text} {all_keys()[key].unit} (standard error){bound}; correlation {related}")
         return "\n".join([*lines, f"after {self.n_runs} runs", repr(self.alignment)])
 
     def plot(self, axes: Any = None) -> Any:
@@ -79,7 +83,9 @@ class _Runs:
     def __init__(self, case: Case, signal: Signal, start: Mapping[str, float]) -> None:
         self.units = dict.fromkeys(start, 1.0)  # of keys that begin at 0
         changes: dict[str, Any] = {"output.sections": [], "output.points": [], "output.shapes": 0.0}
-        changes["output.interval"] = min(signal.interval, case["time.end"] / 500)
+        finest = case["time.end"] / _ROWS
+        changes["output.interval"] = signal.interval / max(1, math.ceil(signal.interval / finest))
+        self.quantity = signal.quantity
         self.case = case.changed({**case.chosen(), **changes})  # one model for all runs
         self.start = start
         self.n = 0
@@ -99,6 +105,10 @@ class _Runs:
             while (not self.start[key] and self.units[key] < min(limits[1][j], 1e12)
                    and np.abs(force(_BEGIN + change) - before).max() < 1e-3 * np.abs(before).max()):
                 self.units[key] *= 10.0
+            change *= 1.0 if self.start[key] else 1e3
+            if not np.abs(force(_BEGIN + change) - before).max() > _FELT * np.abs(before).max():
+                raise ResultsError(f"the {self.quantity} does not depend on {key}, or by less than rounding; leave it out of the "
+                                   "fit, or begin elsewhere")
 
     def __call__(self, x: Numbers) -> Result:
         return self._result(tuple(self.values(x).items()))
@@ -114,7 +124,7 @@ class _Runs:
         return result
 
 
-def _limits(runs: _Runs, bounds: Mapping[str, tuple[float, float]] | None) -> tuple[Numbers, Numbers]:
+def _limits(runs: _Runs, bounds: Mapping[str, tuple[Any, Any]] | None) -> tuple[Numbers, Numbers]:
     """Of what the fit changes: the range of each key, or what is given."""
     if strange := sorted(set(bounds or {}) - set(runs.start)):
         raise CaseError(f"bounds has {', '.join(map(repr, strange))}; allowed: the keys of the fit, {', '.join(runs.start)}")
@@ -123,6 +133,7 @@ def _limits(runs: _Runs, bounds: Mapping[str, tuple[float, float]] | None) -> tu
         known = all_keys()[key]
         low, high = (bounds or {}).get(key) or (-math.inf if known.least is None else known.least,
                                                 math.inf if known.most is None else known.most)
+        low, high = (runs.case.changed({key: end})[key] if isinstance(end, str) else end for end in (low, high))
         if not low <= value <= high:
             raise CaseError(f"{key} is {value:g}, and its bounds are {low:g} and {high:g}; begin between them", key)
         if value:
@@ -138,11 +149,11 @@ def fit(
     signal: Signal,
     keys: str | Sequence[str],
     *,
-    shift: float | None = None,
+    shift: float | str | None = None,
     low_pass: float | None = None,
     gain: float = 1.0,
     gauge: int = 1,
-    bounds: Mapping[str, tuple[float, float]] | None = None,
+    bounds: Mapping[str, tuple[Any, Any]] | None = None,
     progress: Callable[[int, float], object] | None = None,
 ) -> Fit:
     """Finds the values of keys with which the force, or strain, of the run differs least from the measured one,
@@ -151,12 +162,13 @@ def fit(
     keys       numbers of the case: "striker.nose_radius", "contact.damping"
     shift      s, by which the measured time is later; None: it is found with the keys
     low_pass   Hz, cut-off of the transducer; `gain`, measured over true force; `gauge`: as `align` takes them
-    bounds     least and largest values by key; the others are what the key allows
+    bounds     least and largest values by key, with or without units; the others are what the key allows
     progress   called with the number of runs and the root of the mean square of the difference, N
 
     Every run is that of the case without error bars. Raises CaseError for keys that are no numbers or
-    have no value, and ResultsError as `align` does.
+    have no value, and ResultsError as `align` does, and for keys that the force does not depend on.
     """
+    shift = in_seconds(shift)
     start = _start(as_case(case), [keys] if isinstance(keys, str) else list(keys))
     runs = _Runs(case, signal, start)
     n = len(start)
@@ -186,5 +198,7 @@ def fit(
     per_x = np.array([abs(value) if start[key] else runs.units[key] for key, value in values.items()])
     with np.errstate(invalid="ignore"):
         related = covariance / np.outer(deviations, deviations)
+    gap = np.minimum(np.abs(found - ends[0]), np.abs(ends[1] - found))[:n]
+    at_bound = tuple(key for key, distance in zip(start, gap) if distance < 1e-5)
     return Fit(tuple(start), np.array(list(values.values())), deviations * per_x, related,
-               align(runs(found[:n]), signal, shift, gain, low_pass, gauge), case.changed(values), runs.n)
+               align(runs(found[:n]), signal, shift, gain, low_pass, gauge), case.changed(values), runs.n, at_bound)

@@ -6,14 +6,15 @@ import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NoReturn, Union
+from typing import TYPE_CHECKING, Any, NoReturn, Union
 
 import numpy as np
 
 from .._errors import ResultsError
+from .._checks import is_whole
 from .._text import one_line, read_at_most
 from .tables import Table
-from .units import Sensitivity, Unit, quantity, sensitivity_of, unit_of, value_in
+from .units import BRACKETS, Sensitivity, Unit, quantity, sensitivity_of, unit_of, value_in
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -28,6 +29,9 @@ _INCREMENTS = ("increment", "deltax", "deltat", "dt", "tinc", "xinc", "sampleint
 _RATES = ("samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "fs", "abtastrate", "abtastfrequenz")
 _STARTS = ("start", "starttime", "x0", "t0", "hoffset", "xzero", "firstsample")
 _MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237}
+
+
+_GAINS = ("gain", "amplifiergain", "amplification", "amplifier")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -69,6 +73,29 @@ class Signal:
     def interval(self) -> float:
         """The median of the times between samples, s."""
         return float(np.median(np.diff(self.times)))
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether times, values and quantity are the same, wherever they come from."""
+        return (isinstance(other, Signal) and self.quantity == other.quantity
+                and np.array_equal(self.times, other.times) and np.array_equal(self.forces, other.forces))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def to_pandas(self) -> Any:
+        """A Series of pandas: forces (N) or strains (m/m) over times (s)."""
+        import pandas
+
+        name = "force_N" if self.quantity == "force" else "strain"
+        return pandas.Series(self.forces, pandas.Index(self.times, name="time_s"), name=name)
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws it over time; returns the axes of Matplotlib."""
+        from .drawing import draw_signal
+
+        return draw_signal(self, axes)
 
     def __repr__(self) -> str:
         return (f"<Signal of {self.source}: {len(self.times)} samples {1e6 * self.interval:.6g} us apart, "
@@ -184,15 +211,15 @@ class _Reading:
         if column is None:
             return None
         if unit := self._given_unit(given) if given is not None else self.table.units[column]:
-            if (own := self.table.units[column]) and own != unit:
-                self.overruled.append(f"{unit.symbol} as given, where the file says {own.symbol} in {self._label(column)}")
+            own = self.table.units[column] or self._unit_of_metadata(column, what)
+            said = own.symbol if own else next(iter(BRACKETS.findall(self.table.names[column])), "")
+            if given is not None and said and own != unit:
+                self.overruled.append(f"{unit.symbol} as given, where the file says {said} in {self._label(column)}")
             if what == "time" and unit.kind != "time":
                 self.table.fail(self.table.heading or None, f"{self._label(column)} is in {unit.symbol}, no unit of time; give "
                                 "columns=T,F, the numbers of that of the time and that of the force, and units=us,N in this order")
             return unit
-        keys = (("horizontalunits", "hunit", "xunit", "xunitlabel", "timeunit") if what == "time" else
-                ("verticalunits", "vunit", "yunit", "yunitlabel", "forceunit", "unit"))
-        if (text := self._metadata(keys, column if what == "force" else None)) and (unit := unit_of(text)):
+        if unit := self._unit_of_metadata(column, what):
             return unit
         if what == "time" and (self.table.maker or self.table.has_clock):
             return unit_of("s")
@@ -201,6 +228,12 @@ class _Reading:
         said = f"states {self.table.conflicts[column]} as unit of {what}" if column in self.table.conflicts else f"states no unit of {what}"
         self.table.fail(self.table.heading or None, f"{said}, in {self._label(column)}; give units=us,N, those of "
                         "time and force, or write them into the heading: time_us,force_N")
+
+    def _unit_of_metadata(self, column: int, what: str) -> Unit | None:
+        keys = (("horizontalunits", "hunit", "xunit", "xunitlabel", "timeunit") if what == "time" else
+                ("verticalunits", "vunit", "yunit", "yunitlabel", "forceunit", "unit"))
+        text = self._metadata(keys, column if what == "force" else None)
+        return unit_of(text) if text else None
 
     def times(self, n: int, interval: str | float | None) -> tuple[npt.NDArray[np.float64], str]:
         """Times by start and increment, and how they are known."""
@@ -238,6 +271,12 @@ class _Reading:
         if parts and parts[0] != 1.0:
             self.table.fail(self.table.heading or None, f"states a factor of {parts[0]:g}; give scale={parts[0]:g} if its numbers "
                             "are to be multiplied by it, or scale=1 if they are not")
+        gain = self._metadata(_GAINS, self.force) or ""
+        parts = quantity(gain)
+        is_electrical = self.force_unit is not None and self.force_unit.kind in ("voltage", "charge")
+        if is_electrical and parts and parts[0] != 1.0 and not sensitivity_of(gain):
+            self.table.fail(self.table.heading or None, f"states a gain of {gain}; give scale=, one over the gain if its numbers are "
+                            "to be divided by it, or scale=1 if they are not")
 
     def _seconds(self, keys: tuple[str, ...]) -> float | None:
         parts = quantity(text) if (text := self._metadata(keys)) else None
@@ -254,8 +293,14 @@ class _Reading:
         table, unit, where = self.table, self.force_unit, self._label(self.force)
         assert unit is not None
         factor, kind, words = unit.factor, unit.kind, f"{self.quantity}: {where}, {unit.symbol}"
+        is_used = {"sensitivity": kind in ("voltage", "charge"), "mass": kind not in ("force", "strain")}
+        for name, value in (("sensitivity", sensitivity), ("mass", mass)):
+            if value is not None and not is_used[name]:
+                table.fail(table.heading or None, f"{name} is given, and {where} is in {unit.symbol}; leave it out, or give "
+                           f"units=us,{'V' if name == 'sensitivity' else 'g'} if that is its unit")
         if kind in ("voltage", "charge"):
-            own = self._metadata(("sensitivity", "empfindlichkeit"), self.force)
+            stated = (self._metadata((key,), self.force) for key in ("sensitivity", "empfindlichkeit", "calibrationfactor", *_GAINS))
+            own = next((text for text in stated if text and sensitivity_of(text)), None)
             text = sensitivity or own
             known: Sensitivity | None = sensitivity_of(str(text)) if text else None
             if sensitivity and own and sensitivity_of(own) not in (None, known):
@@ -280,7 +325,7 @@ class _Reading:
 
 
 def read(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Any,
     *,
     columns: Column | Sequence[Column] | None = None,
     units: str | Sequence[str] | None = None,
@@ -299,6 +344,7 @@ def read(
     A file that states what it holds needs no option. Raises ResultsError for any other: the message
     names the place and the option that helps.
 
+    path         of the file; or an open file, or a DataFrame of pandas
     columns      of time and force, by number from 1 or by name: (1, 3), "Time,Force"; one: the force
     units        of both: ("us", "kN") or "us,kN"; one: of the force. Accelerations, volts and um/m are allowed
     scale        the force is multiplied by this
@@ -312,14 +358,14 @@ def read(
 
     Cells that are empty, NaN, infinite or overrange (9.9e37) are left out; samples of one time are averaged.
     """
-    file = one_line(os.fsdecode(path))
     if sign not in (None, 1, -1):
         raise ResultsError(f"sign is {sign!r}; allowed: 1, or -1 where the file has compression negative")
-    try:
-        content = read_at_most(path, _MOST_BYTES)
-    except OSError as error:
-        raise ResultsError(f"{file}: cannot be read ({error.strerror}); give the path of a table of numbers, such as a CSV "
-                           "file of an instrument") from None
+    if decimal not in (None, ".", ","):
+        raise ResultsError(f"decimal is {decimal!r}; allowed: \".\", \",\"")
+    for name, number, least in (("skip", skip, 0), ("rows", 3 if rows is None else rows, 3)):
+        if not is_whole(number, least, 2**62):
+            raise ResultsError(f"{name} is {number!r}; allowed: a whole number of lines, {least} or more")
+    file, content = _content(path)
     table = Table(content, file, skip, rows, {"tab": "\t", "\\t": "\t"}.get(separator or "", separator), decimal)
     reading = _Reading(table, _listed(columns), _listed(units), interval is None, sensitivity is not None)
     factor, words = reading.newtons(sensitivity, mass)
@@ -331,13 +377,40 @@ def read(
     if reading.time is None or reading.time_unit is None:
         times, how = reading.times(len(numbers), interval)
     else:
-        times = numbers[:, 0] * reading.time_unit.factor
+        times, where_from = _resolved(table, reading.time, numbers[:, 0])
+        reading.overruled.extend(where_from)
+        times = times * reading.time_unit.factor
         reading.check_interval(times)
         how = f"time: {reading._label(reading.time)}, {reading.time_unit.symbol}"
     forces = numbers[:, -1] * factor * (1.0 if scale is None else float(scale))
     if sign is None and "times" in words and np.nanmin(forces) < -np.nanmax(forces):
         forces, words = -forces, words + ", which slows the striker down: sign changed"
+    if scale not in (None, 1):
+        words += f", times {scale:g}"
     return _signal(table, wanted, times, forces, [how, words, *reading.overruled], sign, reading.quantity)
+
+
+def _content(path: Any) -> tuple[str, bytes]:
+    """Of a file, an open one, or a DataFrame: its name and what it holds."""
+    if hasattr(path, "to_csv"):
+        return "DataFrame", path.to_csv(index=path.index.name is not None).encode()
+    if hasattr(path, "read"):
+        text = path.read()
+        return str(getattr(path, "name", "text")), text if isinstance(text, bytes) else text.encode()
+    file = one_line(os.fsdecode(path))
+    try:
+        return file, read_at_most(path, _MOST_BYTES)
+    except OSError as error:
+        raise ResultsError(f"{file}: cannot be read ({error.strerror}); give the path of a table of numbers, such as a CSV "
+                           "file of an instrument") from None
+
+
+def _resolved(table: Table, column: int, times: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], list[str]]:
+    """Times with all their digits: counted from the first one where a float cannot hold them, such as those since 1970."""
+    known = times[np.isfinite(times)]
+    if len(known) < 2 or np.spacing(np.abs(known).max()) < 1e-5 * (np.ptp(known) / len(known)):
+        return times, []
+    return table.from_first(column), [f"times counted from the first, {known[0]:.10g}"]
 
 
 def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], forces: npt.NDArray[np.float64],

@@ -8,13 +8,14 @@ import io
 import re
 from collections import Counter
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
 from .._errors import ResultsError
 from .._text import one_line
-from .units import BRACKETS, Unit, quantity, unit_in, unit_of
+from .units import BRACKETS, Unit, quantity, sensitivity_of, unit_in, unit_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -25,8 +26,8 @@ _EMPTY = ("", "nan", "-nan", "inf", "-inf", "+inf", "infinity", "-infinity", "�
 #: A cell with a time of day, with or without a date and a time zone.
 _CLOCK = re.compile(r"(?:(?<=[,;\t\"])|^)(?:\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d+)?)"
                     r"(?:Z|[-+]\d\d:?\d\d)?(?=[,;\t\"]|$)")
-_NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+|\d{1,3}(?:[.,]\d{3})+(?:[.,]\d*)?)(?:[eE][-+]?\d+)?")
-_NUMBERS_ONLY = re.compile(r"[-+\d.,;|\s\"eEnaif∞]*\d[-+\d.,;|\s\"eEnaif∞]*", re.IGNORECASE)
+_NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+|\d{1,3}(?:[.,]\d{3})+(?:[.,]\d*)?)(?:[eEdD][-+]?\d+)?")
+_NUMBERS_ONLY = re.compile(r"[-+\d.,;|\s\"edEnaif∞]*\d[-+\d.,;|\s\"edEnaif∞]*", re.IGNORECASE)
 _OTHER_UNITS = ("°C", "C", "K", "%", "m", "mm", "um", "µm", "m/s", "mm/s", "rpm", "1/min", "bar", "Pa", "kPa", "MPa", "A", "mA",
                 "°", "dB")
 _INDEX = ("sequence", "sample", "samples", "index", "point", "points", "nr", "no", "")
@@ -271,10 +272,17 @@ class Table:
         if not (key := key.strip()) or not values or not values[0]:
             return
         unit = unit_in(key)
-        number = quantity(values[0])
         stated = unit.symbol if unit else bracket[1] if (bracket := BRACKETS.search(key)) else ""  # "Sensitivity [mV/N]"
-        if stated and number and not number[1]:
-            values = (f"{number[0]!r} {stated}", *values[1:])
+
+        def plain(value: str) -> str:
+            """With decimals after a point, and its unit; what may be thousands remains a text that is no number."""
+            if number := quantity(value, self.decimal):
+                return f"{number[0]!r} {number[1] or stated}".rstrip()
+            return f"~{value}" if quantity(value) or quantity(value, ",") else value
+
+        values = tuple(map(plain, values))
+        if len(values) > 1 and re.fullmatch(r"[-+\d.e]+", values[0]) and sensitivity_of(f"{values[0]} {values[1]}"):
+            values = (f"{values[0]} {values[1]}",)  # "Sensitivity,2.27,mV/N"
         self.metadata.setdefault(re.sub(r"[\[({].*|[^a-z0-9]", "", key.lower()), list(values))
 
     def numbers(self, wanted: list[int]) -> npt.NDArray[np.float64]:
@@ -290,7 +298,13 @@ class Table:
                     io.StringIO("\n".join(body)), sep=r"\s+" if self.separator == " " else self.separator, header=None,
                     names=list(range(self.width)), usecols=wanted, decimal=self.decimal, dtype=float, index_col=False,
                     na_values=[*_EMPTY, *map(str.upper, _EMPTY), "NaN", "Inf"], skipinitialspace=True)
-                return np.column_stack([frame[j].to_numpy() for j in wanted])
+                read = np.column_stack([frame[j].to_numpy() for j in wanted])
+                if self.separator != " ":
+                    return read
+                filled = [line for line in body if line.strip()]  # of which those without a cell say not which one
+                if len(filled) == len(read):
+                    read[[len(line.split()) < self.width for line in filled]] = np.nan
+                    return read
             except ValueError:  # a cell that is no number; those of ParserError too
                 pass
         return np.array([numbers for _, numbers in self._careful_rows(wanted)])
@@ -301,6 +315,10 @@ class Table:
 
     def _careful_rows(self, wanted: list[int]) -> Iterator[tuple[int, list[float]]]:
         """Rows one by one, with the numbers of their lines."""
+        for line, cells in self._rows_of_cells():
+            yield line, [float(self._number(cells[j] if j < len(cells) else "", line, j)) for j in wanted]
+
+    def _rows_of_cells(self) -> Iterator[tuple[int, list[str]]]:
         last = len(self.lines)
         while not _NUMBER.search(self.lines[last - 1]) or not self._is_row(self.cells(self.lines[last - 1])):
             last -= 1  # what follows the table
@@ -312,13 +330,22 @@ class Table:
             if len(cells) > self.width and any(cells[self.width :]):
                 self.fail(i + 1, f"has {len(cells)} cells where other rows have {self.width}; give decimal=, or separator=; "
                           "as it is, or rows=N to end before this line")
-            yield i + 1, [self._number(cells[j] if j < len(cells) else "", i + 1, j) for j in wanted]
+            yield i + 1, [] if self.separator == " " and len(cells) < self.width else cells
 
-    def _number(self, cell: str, line: int, column: int) -> float:
+    def from_first(self, column: int) -> npt.NDArray[np.float64]:
+        """The numbers of a column less the first one, of which a float has not all digits."""
+        def exact(cell: str) -> Decimal:
+            return Decimal(self._number(cell, self.first + 1, column))
+
+        cells = [row[column] if column < len(row) else "" for _, row in self._rows_of_cells()]
+        first = next((exact(cell) for cell in cells if not _is_empty(cell)), Decimal(0))
+        return np.array([float("nan") if _is_empty(cell) else float(exact(cell) - first) for cell in cells])
+
+    def _number(self, cell: str, line: int, column: int) -> str:
         if _is_empty(cell):
-            return float("nan")
+            return "nan"
         other = "," if self.decimal == "." else "."
         if not _NUMBER.fullmatch(cell) or (other in cell and not _is_grouped(cell, other)):
             self.fail(line, f"column {column + 1} is \"{cell}\"; allowed: a number with decimals after \"{self.decimal}\"; give "
                       f"decimal={other} if it has them, or rows=N or skip=N to leave this line out")
-        return float(cell.replace(other, "").replace(self.decimal, "."))
+        return re.sub("[dD]", "e", cell.replace(other, "").replace(self.decimal, "."))

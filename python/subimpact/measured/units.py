@@ -41,7 +41,7 @@ def _table() -> dict[str, Unit]:
     for careless, symbol in {"S": "s", "mS": "ms", "uS": "us", "US": "us", "nS": "ns", "NS": "ns", "KN": "kN",
                              "Sa/s": "S/s", "kSa/s": "kS/s", "MSa/s": "MS/s", "1/s": "Hz"}.items():
         table[careless] = table[symbol]
-    for symbol, factor in {"lbf": 4.4482216152605, "lbs": 4.4482216152605, "kgf": _STANDARD_GRAVITY, "kp": _STANDARD_GRAVITY,
+    for symbol, factor in {"lbf": 4.4482216152605, "lbs": 4.4482216152605, "kip": 4448.2216152605, "cN": 0.01, "kgf": _STANDARD_GRAVITY, "kp": _STANDARD_GRAVITY,
                            "daN": 10.0}.items():
         table[symbol] = Unit("force", factor, symbol)
     table["min"] = Unit("time", 60.0, "min")
@@ -61,22 +61,28 @@ def _table() -> dict[str, Unit]:
 _UNITS = _table()
 BRACKETS = re.compile(r"[\[({<]\s*([^\[\](){}<>]+?)\s*[\])}>]")
 _QUANTITIES = r"t|time|zeit|f|force|kraft|load|u|voltage|spannung|a|acceleration|beschleunigung"
+#: What tells that numbers are not those of the unit that follows or stands before: "Force [N] x 1000", "F/1000 (N)", "-F (N)".
+_SCALED = re.compile(r"[x*×·]\s*(\d{2}|\d[\d.]*e)|[/*]\s*\d|10\s*\^|^\s*(-|lo?g\b|ln\b)|[])}>]\s*[x*×·]\s*\d",
+                     re.IGNORECASE)
+_GROUPS = re.compile(r"\s*[-+]?[1-9]\d{0,2}(?:(?P<mark>[ .,])\d{3})(?:(?P=mark)\d{3})*(?![\d.,])")
 _FRACTION = re.compile(rf"\s*(?:{_QUANTITIES})\s*/\s*(.+)", re.IGNORECASE)  # "F/N"
 
 
 def unit_of(text: str) -> Unit | None:
     """The unit that this is, such as "us" or "(kN)"."""
     text = text.strip().strip("[](){}<>\"'").strip().replace("µ", "u").replace("μ", "u").replace("²", "2")
+    text = text.removesuffix(".")  # "Sec."
     text = re.sub(r"(?<=[a-z0-9/])[\s^*·.]+(?=[-a-z0-9(])", "", text) if text[:1] == "m" else text
     return _UNITS.get(text) or (_UNITS.get(text.lower()) if len(text) > 2 and text.isalpha() else None)
 
 
 def unit_in(name: str) -> Unit | None:
     """The unit that a heading ends in: "Time (us)", "time_us", "F/N", "Kraft in kN"; not "v_m_per_s"."""
+    if _SCALED.search(name):
+        return None
     if brackets := BRACKETS.findall(name):
         units = [unit for text in brackets if (unit := unit_of(text))]
-        is_scaled = re.search(r"[])}>]\s*[x*×·]\s*\d|10\s*\^", name) is not None  # "Force [N] x 1000"
-        return units[-1] if units and not is_scaled and (len(units) == 1 or units[-2].kind != units[-1].kind) else None
+        return units[-1] if units and (len(units) == 1 or units[-2].kind != units[-1].kind) else None
     if whole := unit_of(name):
         return whole
     if fraction := _FRACTION.fullmatch(name):
@@ -89,8 +95,15 @@ def unit_in(name: str) -> Unit | None:
     return unit_of(words[-1])
 
 
-def quantity(text: str) -> tuple[float, str] | None:
-    """A number and what follows it: "2.27 mV/N"; a decimal comma counts as a point."""
+def quantity(text: str, decimal: str = ".") -> tuple[float, str] | None:
+    """A number and what follows it: "2.27 mV/N"; a decimal comma counts as a point. None also for "1,000", which may be a
+    thousand, where decimals begin with the other mark; "1,000,000" and "1 000" are no decimals anyway."""
+    if groups := _GROUPS.match(text):
+        number, mark = groups[0], groups["mark"]
+        if number.count(mark) == 1 and mark not in (" ", decimal):
+            return None
+        if number.count(mark) > 1 or mark == " ":
+            text = number.replace(mark, "") + text[groups.end():]
     match = re.fullmatch(r"\s*([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", text.strip())
     return (float(match[1].replace(",", ".")), (match[2] or "").strip()) if match else None
 

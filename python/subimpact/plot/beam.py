@@ -118,6 +118,8 @@ def envelope(result: Result, axes: Any) -> None:
     if zones:
         low, high = axes[1].get_ylim()
         axes[1].set_ylim(max(low, -6 * strain), min(high, 6 * strain))
+        if (largest := 1e3 * np.nanmax(np.abs([table["max_strain"], table["min_strain"]]))) > 6 * strain:
+            axes[1].set_title(f"cut off: up to {largest:.2g}", loc="right")
     axes[0].set_xlim(0, result["beam.length"])
     axes[2].set_xlabel("position along the beam, m")
     legend_above(axes[0])

@@ -88,7 +88,8 @@ def figure(mosaic: Any, height: float = 4.6, **options: Any) -> Callable[[Draw],
     other options of that function."""
 
     def of(draw: Draw) -> Callable[..., Any]:
-        takes = next(iter(inspect.signature(draw).parameters))
+        signature = inspect.signature(draw)
+        takes = next(iter(signature.parameters))
 
         @functools.wraps(draw)
         def drawn(source: Any, axes: Any = None, *more: Any, **named: Any) -> Any:
@@ -96,6 +97,8 @@ def figure(mosaic: Any, height: float = 4.6, **options: Any) -> Callable[[Draw],
             if not is_fit.get(takes, True):
                 kinds = {"result": "a subimpact.Result", "runs": "the runs of a sweep, sweep.runs"}
                 raise TypeError(f"{draw.__name__}() has a {type(source).__name__}; allowed: {kinds[takes]}")
+            if isinstance(axes, str):
+                raise TypeError(f"axes is {axes!r}; allowed: panels of Matplotlib, or None; what to draw is named: column={axes!r}")
             if axes is not None:
                 draw(source, axes, *more, **named)
                 return axes
@@ -113,6 +116,8 @@ def figure(mosaic: Any, height: float = 4.6, **options: Any) -> Callable[[Draw],
                     made.suptitle("\n".join(marks))
             return axes
 
+        optional = [each.replace(default=None) if name == "axes" else each for name, each in signature.parameters.items()]
+        drawn.__signature__ = signature.replace(parameters=optional, return_annotation="Any")  # type: ignore[attr-defined]
         return drawn
 
     return of

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import matplotlib
+import matplotlib.ticker
 import numpy as np
 
 from ..case import keys
@@ -17,7 +18,7 @@ Table = Mapping[str, Any]
 CHIEF = ("n_sub_impacts", "first_separation_s", "max_force_N", "impulse_Ns", "restitution", "permanent_set_m")
 
 _KEYS = keys()
-_UNITS = {"s": ("µs", 1e6), "N": ("N", 1.0), "m": ("mm", 1e3), "J": ("J", 1.0), "Ns": ("mN s", 1e3)}
+_UNITS = {"s": ("µs", 1e6), "N": ("kN", 1e-3), "m": ("mm", 1e3), "J": ("J", 1.0), "Ns": ("mN s", 1e3)}
 _MOST_CELLS_WITH_NUMBERS = 600
 # 0, 1, 2 ... each of a colour of its own; more are shaded.
 _COUNTS = ("#FFFFFF", "#56B4E9", "#E69F00", "#009E73", "#F0E442", "#CC79A7", "#D55E00", "#0072B2", "#A6761D",
@@ -48,6 +49,9 @@ def _grid(runs: Table) -> tuple[str, str]:
     keys = columns[columns.index("run") + 1 : columns.index("outcome")]
     varied = {key: len(np.unique(runs[key])) for key in keys if np.asarray(runs[key]).dtype.kind in "if"}
     varied = {key: n for key, n in varied.items() if n > 1}
+    texts = [key for key in keys if key not in varied and len(np.unique(np.asarray(runs[key]).astype(str))) > 1]
+    if len(varied) < 2 and texts:
+        raise Absent(f"a map needs two keys with numbers, and {', '.join(texts)} has words; draw the runs of one of them at a time")
     if len(varied) < 2 or np.prod([*varied.values()][:2]) > 4 * len(runs["run"]):
         raise Absent("a map needs two keys that vary over the values of a grid")
     y, x = [*varied][:2]
@@ -86,6 +90,8 @@ def sweep_map(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
         axis.set_label_text(_name_and_unit(key)[0])
     axes.grid(False)
     axes.tick_params(length=0)
+    if not np.isfinite(cells).all():
+        axes.set_title(f"grey: no {label.partition(',')[0]}, as not completed or not known", loc="left")
     if cells.size <= _MOST_CELLS_WITH_NUMBERS:
         _write_numbers(axes, mesh, cells)
 
@@ -130,6 +136,8 @@ def histogram(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
     axes.axvline(middle, color=COLOURS[6], linestyle=":")
     axes.set_title(f"mean {values.mean():.4g}; 5 %: {low:.4g}, 95 %: {high:.4g}")
     axes.set(xlabel=label, ylabel="runs")
+    for axis in (axes.yaxis, *([axes.xaxis] if column.startswith("n_") else [])):
+        axis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True, min_n_ticks=1))
 
 
 def _chief(runs: Table) -> Sequence[str]:

@@ -157,8 +157,10 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   // A name that differs in more than a third of its letters is another word, not a slip.
   const std::size_t furthest = std::max<std::size_t>(1, name.size() / 3);
   std::size_t best_distance = furthest + 1;
+  constexpr std::size_t fewest_letters = 3;
   for (const std::string& candidate : candidates) {
     if (name.size() > candidate.size() + furthest) continue;
+    if (name.size() >= fewest_letters && candidate.starts_with(name)) return candidate;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best_distance) {
       best_distance = distance;

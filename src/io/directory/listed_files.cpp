@@ -163,8 +163,10 @@ std::ifstream ListedFiles::open(const std::string& name) const {
   if (!are_listed()) return open_file(path);
   const auto listed = manifest_->files.find(name);
   if (listed == manifest_->files.end()) {
-    fail<ResultsError>("{}: is not among the results of `subimpact {}` that {} lists",
-                       path.string(), manifest_->kind, manifest_name);
+    const bool is_sweep = manifest_->files.contains("runs.csv");
+    fail<ResultsError>("{}: is not among the results of `subimpact {}` that {} lists{}",
+                       path.string(), manifest_->kind, manifest_name,
+                       is_sweep ? "; a row per run is in runs.csv, for pandas.read_csv" : "");
   }
   // A file that is not yet in its place waits under the name of its commit.
   for (const fs::path& place : {path, staging_of(directory_, manifest_->commit) / name, path}) {
