@@ -74,7 +74,7 @@ def covariance_of(jacobian: Numbers, residuals: Numbers) -> Numbers:
     coloured = inverse @ (jacobian.T @ fftconvolve(jacobian, taper[:, None], "same", axes=0)) @ inverse
     with np.errstate(invalid="ignore", divide="ignore"):
         widening = np.sqrt(np.fmax(np.diag(coloured) / np.diag(white), 1.0))
-    widened: Numbers = white * np.outer(widening, widening)
+    widened: Numbers = white * widening[:, None] * widening
     return widened
 
 
