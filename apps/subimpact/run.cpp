@@ -124,19 +124,12 @@ bool is_runnable(const CaseOptions& input, const std::vector<std::string>& more)
   }
 }
 
-// The end of the summary: commands that go on from here, what they show and how long they take.
-std::string next_steps(const RunOptions& options, const GivenKeys& given, const WithinRun& run,
-                       const std::string& directory) {
+// Commands that go on from here, each with what it shows and how long it takes after a "#".
+std::vector<std::string> next_steps(const RunOptions& options, const GivenKeys& given,
+                                    const WithinRun& run) {
   const std::string program = quoted(program_invocation_name);
-  std::string text;
-  const auto add = [&](const std::string& command, const std::string& gain) {
-    text += fmt::format("  {:<19} {}\n{:24}{}\n", text.empty() ? "next" : "", command, "", gain);
-  };
-  if (!directory.empty()) {
-    add(fmt::format("{} report {}", program, quoted(directory)),
-        "draws it: the moving beam, charts, every number on one page (a few seconds)");
-  }
-  if (run.input.parts.start) return text;  // advice is for a first strike
+  std::vector<std::string> steps;
+  if (run.input.parts.start) return steps;  // advice is for a first strike
   for (const Advice& advice : advice(run.input, given, run.result)) {
     std::vector<std::string> settings;
     std::string command = fmt::format("{} run {}", program, quoted(options.input.file));
@@ -153,10 +146,30 @@ std::string next_steps(const RunOptions& options, const GivenKeys& given, const 
       append(option, value);
       if (option == "--set") settings.push_back(value);
     }
+    append("--out", options.directory.empty() ? options.input.directory_with("-" + advice.name)
+                                              : options.directory + "-" + advice.name);
     if (!is_runnable(options.input, settings)) continue;
-    add(command,
-        fmt::format("{} (about {} s)", advice.gain, with_digits(std::max(1.0, advice.seconds), 1)));
+    steps.push_back(fmt::format("{} # {} (about {} s)", command, advice.gain,
+                                with_digits(std::max(1.0, advice.seconds), 1)));
   }
+  return steps;
+}
+
+// The end of the summary.
+std::string next_lines(const std::vector<std::string>& steps, const std::string& directory) {
+  std::string text;
+  const auto add = [&](const std::string& step) {
+    const std::size_t at = step.rfind(" # ");
+    text += fmt::format("  {:<19} {}\n{:24}{}\n", text.empty() ? "next" : "", step.substr(0, at),
+                        "", step.substr(at + 3));
+  };
+  if (!directory.empty()) {
+    add(
+        fmt::format("{} report {} # draws it: the moving beam, charts, every number on one page (a "
+                    "few seconds)",
+                    quoted(program_invocation_name), quoted(directory)));
+  }
+  for (const std::string& step : steps) add(step);
   return text;
 }
 
@@ -185,6 +198,7 @@ int run(RunOptions& options) {
       run.result.n_shape_rows += before->result.n_shape_rows;
     }
     add_scatter(run, options, listener);
+    run.result.next_steps = next_steps(options, loaded.given, run);
     return run;
   });
   const Case& input = finished.input;
@@ -194,7 +208,7 @@ int run(RunOptions& options) {
   const std::string unwritten = write(files, input, result);
   if (!options.quiet || !unwritten.empty()) {
     print("{}{}\n{}", run_summary(input, result, options.verbose),
-          next_steps(options, loaded.given, finished,
+          next_lines(result.next_steps,
                      unwritten.empty() ? files.directory().path().string() : std::string()),
           sub_impact_table(result, !options.all));
     if (!result.strikes.empty()) print("\n{}", strike_table(result, options.all));

@@ -32,14 +32,16 @@ Advice smaller_errors(const Case& input, const Result& result) {
   return {{{"--within", fmt::format("{:g}us", rounded)}},
           std::min(result.work.all_seconds * (1.0 + growth),
                    seconds_of_work(input.accuracy.work_limit, input, result)),
-          "makes more of them certain, and the errors smaller"};
+          "makes more of them certain, and the errors smaller",
+          "finer"};
 }
 
 // Frees what the case fixes of mesh and method.
 Advice chosen_mesh(const Case& input, const GivenKeys& given, const Result& result) {
   Advice advice{{},
                 seconds_of_work(default_work_limit, input, result),
-                "leaves mesh and method to the program: errors then hold for all meshes"};
+                "leaves mesh and method to the program: errors then hold for all meshes",
+                "free-mesh"};
   for (const auto& keys : {given.in_file, given.in_settings}) {
     for (const std::string& key : keys) {
       const bool is_physics =
@@ -68,7 +70,8 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
   if (lacks_shear(result)) {
     all.push_back({{{"--set", "beam.theory=timoshenko"}},
                    result.work.all_seconds,
-                   "includes the shear that is left out here"});
+                   "includes the shear that is left out here",
+                   "with-shear"});
     if (!input.scene.beam.poisson) {
       const double nu = input.scene.beam_poisson().value_or(usual_poisson);
       all.back().options.emplace_back("--set", fmt::format("beam.poisson={:.4g}", nu));
@@ -90,14 +93,16 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
                       {"--set", fmt::format("accuracy.work_limit={:.3g}",
                                             times_more_accurate * input.accuracy.work_limit)}},
                      times_more_accurate * result.work.all_seconds,
-                     "continues on finer meshes"});
+                     "continues on finer meshes",
+                     "finer"});
     }
   }
   const bool may_have_more = estimate && estimate->doubt_after(result.sub_impacts.size() - 1);
   if (!result.contact_over && !(may_have_more && result.no_more_contact)) {
     all.push_back({{{"--set", fmt::format("time.end={:.4g}", times_longer * input.end_time)}},
                    times_longer * result.work.all_seconds,
-                   "shows whether contact is over"});
+                   "may show whether contact is over",
+                   "longer"});
   }
   return all;
 }

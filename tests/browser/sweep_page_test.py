@@ -116,7 +116,7 @@ class SweepPage(PageTestCase):
         for words in ("run 33:", f"{mass:g} kg", f"{velocity:g} m/s", method):
             self.assertIn(words, tip)
         self.assertEqual(self.find("#run-title").text, "Run 33")
-        self.assertIn(f"{1000.5 + run:g} N", self.find("#row").text)
+        self.assertIn(f"{1000.5 + run:.4g} N", self.find("#row").text)  # without an error, four digits
         rows = self.driver.find_elements("css selector", "#sub-impacts tbody tr")
         self.assertEqual(len(rows), n)
         for i, (row, hit) in enumerate(zip(rows, self.hits[run])):

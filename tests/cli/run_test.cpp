@@ -90,7 +90,7 @@ TEST_F(ARun, AdvisesCommandsThatTheShellTakes) {
     const bool is_run = line.find(" run ") != line.npos;
     const std::string command =
         fmt::format("cd {} && {}{} > printed 2>&1", directory.path.string(), line.substr(begin),
-                    is_run ? " --set time.end=3e-5 --out again" : "");
+                    is_run ? " --set time.end=3e-5" : "");
     EXPECT_EQ(std::system(command.c_str()), 0) << command << "\n" << directory.read("printed");
   }
   EXPECT_GE(n_commands, 3) << finished.output;

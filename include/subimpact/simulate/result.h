@@ -307,6 +307,8 @@ struct Result : Assessment {
   std::shared_ptr<const RunState> end_state;
   /// Warnings about results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
+  /// Commands that go on from here, what they are for after a "#"; of `subimpact run` alone.
+  std::vector<std::string> next_steps;
   Work work;
 
   /// Whether the whole result passed every check. If not, the part up to

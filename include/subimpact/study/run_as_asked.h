@@ -59,7 +59,8 @@ struct Advice {
   /// Options of `subimpact run` and their values: {"--within", "1us"}, {"--set", "time.end=0.016"}.
   std::vector<std::pair<std::string, std::string>> options;
   double seconds = 0.0;  ///< expected, from time and counted work of this run
-  std::string gain;      ///< "shows whether contact is over"
+  std::string gain;      ///< "may show whether contact is over"
+  std::string name;      ///< "longer": of what this run has
 };
 
 /// Useful further runs, the most useful first. `input` and `given`: the case as it was run, and the

@@ -204,6 +204,10 @@ constexpr double largest_deflection = 0.5;   // over the thickness, of a beam he
 constexpr double deepest_indentation = 0.1;  // over the nose radius
 constexpr double least_pull = 0.01;          // over the largest force of a support
 
+std::string with_three_digits(double value) {
+  return fmt::format("{:.10g}", std::stod(fmt::format("{:.2e}", value)));
+}
+
 // Supports that hold the beam down, where it may only rest on them.
 void add_pulls(const Beam& beam, const Result& result, std::vector<std::string>& sentences) {
   double largest = 0.0;
@@ -215,9 +219,10 @@ void add_pulls(const Beam& beam, const Result& result, std::vector<std::string>&
     if (!forces || beam.ends[end] != EndSupport::pinned) continue;
     if (!(forces->largest.value > least_pull * largest)) continue;
     sentences.push_back(fmt::format(
-        "the support at x = {} pulls the beam by up to {:.3g} N, at {:.4g} us: a beam that only "
+        "the support at x = {} pulls the beam by up to {} N, at {:.4g} us: a beam that only "
         "rests on it would lift off there, which the model leaves out",
-        end == 0 ? "0" : "length", forces->largest.value, us * forces->largest.time));
+        end == 0 ? "0" : "length", with_three_digits(forces->largest.value),
+        us * forces->largest.time));
   }
 }
 

@@ -173,7 +173,7 @@ std::string case_file_text(const Case& input) {
     }
     const auto* words = std::get_if<std::string>(&*value);
     text += fmt::format("{} = {}{}\n", key.leaf(), words ? toml_text(*words) : to_text(*value),
-                        key.unit.empty() ? "" : "  # " + key.unit);
+                        key.unit.empty() || words ? "" : "  # " + key.unit);
   }
   return text;
 }

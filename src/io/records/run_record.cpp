@@ -375,7 +375,7 @@ Record<DescribedRun> make_run_record() {
       {"model_choice", "why theory and contact law are what they are, if they were chosen", [](auto& run) -> auto& { return run.input->model_choice; }},
       {"model_errors", "errors of the model itself; null: not estimated", result(&Result::model_errors), model_record},
       {"warnings", "warnings about results that passed all checks", result(&Result::warnings)},
-
+      {"next", "commands that go on from here, and what they are for", result(&Result::next_steps)},
       {"counts.sub_impacts", "number of sub-impacts", [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},
       {"counts.parted_by_1_um", "sub-impacts after which striker and beam part by as much or more", [](const DescribedRun& run) { return n_parted_by(1e-6, run.result->sub_impacts); }},
       {"counts.parted_by_10_um", "the same for 10 um", [](const DescribedRun& run) { return n_parted_by(1e-5, run.result->sub_impacts); }},

@@ -19,6 +19,18 @@
 namespace subimpact {
 namespace {
 
+// Why sub-impacts from `first` on are not certain, as far as they have reasons of their own.
+void add_doubts(const Result& result, std::size_t first, const auto& line) {
+  constexpr std::size_t most_doubts = 8;
+  std::size_t n = 0;
+  for (std::size_t i = first; i < result.sub_impacts.size(); ++i) {
+    const SubImpact& s = result.sub_impacts[i];
+    if (s.certain.value_or(true) || s.doubt.empty()) continue;
+    if (++n <= most_doubts) line(false, fmt::format("sub-impact {}: {}.", i + 1, s.doubt));
+  }
+  if (n > most_doubts) line(false, counted(n - most_doubts, "more sub-impact") + ".");
+}
+
 Json headlines(const Result& result) {
   Json list = Json::array();
   const auto line = [&](bool certain, const std::string& words) {
@@ -44,6 +56,7 @@ Json headlines(const Result& result) {
       line(false, fmt::format("{}: {}.",
                               place_of_doubt(result, *estimate.first_unresolved, estimate.reason),
                               estimate.reason));
+      add_doubts(result, *estimate.first_unresolved + 1, line);
     }
   } else {
     line(false, "event times, count and order of sub-impacts: no error bars were computed.");
@@ -94,7 +107,7 @@ void add_certainty(Json& page, const Result& result) {
   page["verdict_opens"] = opens.empty() ? "Why" : opens;
 }
 
-// Until when the bodies touch each other, and how certain times are: the page's first tiles.
+// Until when the bodies touch each other.
 void add_times(std::vector<Answer>& first, const Result& result) {
   if (result.sub_impacts.empty()) return;
   const SubImpact& last = result.sub_impacts.back();
@@ -104,10 +117,15 @@ void add_times(std::vector<Answer>& first, const Result& result) {
                    : last.end_error ? text_of(Total{end, last.end_error}, as_instant)
                                     : plain_text(end, as_instant),
                    ""});
-  if (result.error_estimate && result.error_estimate->largest_error > 0.0) {
-    first.push_back(
-        {"certain times", "within " + error_text(result.error_estimate->largest_error), ""});
-  }
+}
+
+// Commands and what they are for.
+Json next_steps(const Result& result) {
+  return list_of(result.next_steps, [](const std::string& step) -> Json {
+    const std::size_t at = std::min(step.rfind(" # "), step.size());
+    return {{"command", step.substr(0, at)},
+            {"gain", in_print(step.substr(std::min(at + 3, step.size())))}};
+  });
 }
 
 // Answers of the first screen, those about the model, all others.
@@ -282,7 +300,10 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        if_any(result.predictability, [&](const auto&) { return predictability_words(result); })},
       {"caveat", in_print(outcome_caveat(result))},
       {"cause", result.outcome.completed() ? "" : in_print(result.outcome.message)},
-      {"warnings", result.warnings},
+      {"warnings",
+       list_of(result.warnings, [](const auto& words) { return Json(in_print(words)); })},
+      {"next_steps", next_steps(result)},
+      {"has_next", !result.next_steps.empty()},
       {"measured", comparison.section},
       {"flights", flights(result.error_estimate)},
       {"summary", in_print(run_summary(run.input, result, true))},

@@ -192,6 +192,7 @@ Json sub_impacts_json(const Result& result) {
             {"ongoing", !s.end.has_value()},
             {"peak_force", s.peak_force},
             {"peak_time", s.peak_time},
+            {"residual", s.residual_indentation},
             {"start_error", number_or_null(s.start_error)},
             {"end_error", number_or_null(s.end_error)},
             {"start_scatter", number_or_null(s.start_scatter)},

@@ -164,17 +164,18 @@ Answer permanent_set(const Case& input, const Result& result) {
         &most == (ends[0] == EndSupport::free ? &result.envelope.front() : &result.envelope.back());
     const std::string place =
         has_tip && is_tip ? "the tip" : fmt::format("{:.4g} m", most.position);
+    const std::string hinge_place = fmt::format("{:.4g} m", 0.5 * (hinge.from + hinge.to));
     const double set = std::abs(most.set_from_supports);
     const double error = error_of_total(result, "permanent_set_m").value_or(0.0);
     answer.value = set < error ? "below " + rough_text({set + error, 0.0}, as_length)
                                : total_text(result, "permanent_set_m", set, as_length);
     answer.note =
-        fmt::format("at {}, against the {}; largest plastic hinge {} at {:.4g} m", place,
+        fmt::format("at {}, against the {}; largest plastic hinge {} {}", place,
                     has_tip   ? "clamp"
                     : is_open ? "chord"
                               : "supports",
                     total_text(result, "hinge_rotation_rad", std::abs(hinge.rotation), as_rotation),
-                    0.5 * (hinge.from + hinge.to));
+                    hinge_place == place ? "there" : "at " + hinge_place);
   } else if (!(first_yield_strain(input, result) < HUGE_VAL)) {
     answer.note = "the beam has no yield stress";
   } else if (!result.envelope.empty()) {
@@ -307,10 +308,12 @@ std::string part_words(const ModelErrors& errors, std::optional<double> StrikeFi
   for (const ModelErrors::Part& part : errors.parts) parts.push_back(&part);
   const auto size = [&](const auto* part) { return -(part->change.*figure).value_or(-1.0); };
   std::ranges::stable_sort(parts, {}, size);
+  constexpr double felt = 1e-3;  // of the largest part
+  const double largest = parts.empty() ? 0.0 : (parts.front()->change.*figure).value_or(0.0);
   std::string words;
   for (const ModelErrors::Part* part : parts) {
     const std::optional<double>& change = part->change.*figure;
-    if (change == 0.0) continue;
+    if (change && *change <= felt * largest) continue;
     words += fmt::format("{}{} {}", words.empty() ? "" : ", ", part->name,
                          change ? with_digits(unit.per_si * *change, 2) : "not known");
   }

@@ -1,6 +1,7 @@
 #include "study/judgement/totals.h"
 
 #include <map>
+#include <ranges>
 
 #include "numerics/richardson.h"
 #include "study/judgement/judge.h"
@@ -227,8 +228,18 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
     estimate.zones.push_back({total([](Zone z, Run) { return z.start; }), total(end_of),
                               total([](Zone z, Run) { return z.impulse; }),
                               count_of(zone, run, beside, estimate)});
-    widen(estimate.zones.back().start, zone.start_error);
-    widen(estimate.zones.back().end, zone.end_error);
+    ZoneTotals& totals = estimate.zones.back();
+    widen(totals.start, zone.start_error);
+    widen(totals.end, zone.end_error);
+    // The time at which its last sub-impact ends, if no other one may follow that.
+    const auto last =
+        std::ranges::find(run.sub_impacts | std::views::reverse, zone.zone, &SubImpact::zone);
+    const auto index = static_cast<std::size_t>(run.sub_impacts.rend() - last) - 1;
+    const bool have_rows_all_errors =
+        std::ranges::all_of(beside, [](const RunBeside& other) { return other.of.of_rows; });
+    if (have_rows_all_errors && last->certain.value_or(false) && !estimate.doubt_after(index)) {
+      totals.end.error = zone.end_error;
+    }
   }
   Total count = sum_of_counts(estimate.zones);
   if (run.sub_impacts.empty() && estimate.first_unresolved) count.error = 1.0;

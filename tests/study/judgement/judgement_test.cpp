@@ -134,7 +134,13 @@ TEST(AJudgement, IsOneAccountOfCountsVerdictsAndTotals) {
 TEST(AJudgement, OfRealRunsIsOneAccount) {
   for (const double end : {0.4e-3, 2e-3, 6e-3}) {
     Case input = paper_run(SectionKind::elastic, end, 61, Method::exponential);
-    expect_one_account(simulate_judged(input, cases_beside(input), 2));
+    const Result judged = simulate_judged(input, cases_beside(input), 2);
+    expect_one_account(judged);
+    // The end of a zone is that of its last sub-impact, with the same error.
+    const std::size_t last = judged.sub_impacts.size() - 1;
+    if (*judged.sub_impacts[last].certain && !judged.error_estimate->doubt_after(last)) {
+      EXPECT_EQ(judged.error_estimate->zones.back().end.error, judged.sub_impacts[last].end_error);
+    }
     expect_one_account(simulate_judged(input, cases_beside_on_given_mesh(input), 2));
     expect_one_account(simulate_judged(input, cases_beside_by_part(input), 2));
   }

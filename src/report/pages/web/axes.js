@@ -134,14 +134,22 @@ class Axes {
     draw.restore();
   }
 
-  // A line through points in pixels.
+  // A line through points in pixels; `smooth`: round between them.
   line(points, style = {}) {
     const {draw} = this;
     if (style.colour) draw.strokeStyle = style.colour;
     if (style.width) draw.lineWidth = style.width;
     draw.setLineDash(style.dash ?? []);
     draw.beginPath();
-    points.forEach(([x, y], i) => (i === 0 ? draw.moveTo(x, y) : draw.lineTo(x, y)));
+    points.forEach(([x, y], i) => {
+      if (i === 0) draw.moveTo(x, y);
+      else if (!style.smooth) draw.lineTo(x, y);
+      else {  // cubics whose slopes at points are those of their neighbours
+        const [before, from, after] = [points[Math.max(i - 2, 0)], points[i - 1], points[Math.min(i + 1, points.length - 1)]];
+        draw.bezierCurveTo(from[0] + (x - before[0]) / 6, from[1] + (y - before[1]) / 6,
+                           x - (after[0] - from[0]) / 6, y - (after[1] - from[1]) / 6, x, y);
+      }
+    });
     draw.stroke();
     draw.setLineDash([]);
   }

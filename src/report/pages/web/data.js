@@ -115,6 +115,14 @@ class Strike {
     return this.sub_impacts.findIndex((s) => time >= s.start && time < s.end);
   }
 
+  // How far apart the surfaces are, m: less than 0 in contact.
+  gapAt(time) {
+    const hits = this.sub_impacts;
+    const before = hits.findLast((hit) => hit.end <= time && !hit.ongoing);
+    const dent = before ? before.residual : hits.length > 0 ? this.at('indentation_m', hits[0].start) : 0;
+    return dent - this.at('indentation_m', time);
+  }
+
   eventAt(time) { return this.events.find((event) => event.time === time); }
 
   // The next event after a time (sense 1), or the one before it (sense -1), or undefined.

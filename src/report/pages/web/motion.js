@@ -54,7 +54,7 @@ class Motion {
     const thick = Math.max(5, strike.thickness / length * (axes.right - axes.left));
     axes.inside((draw) => {
       draw.lineJoin = 'round';
-      axes.line(points, {colour: colour('beam'), width: thick});
+      axes.line(points, {colour: colour('beam'), width: thick, smooth: true});
       this.drawPlastic(axes, points, shape, thick);
       if (strike.hasHistory) this.drawStriker(axes, time, origin, thick);
       drawGround(axes, strike, points, thick);
@@ -146,7 +146,7 @@ class Motion {
     axes.inside((draw) => {
       if (strike.envelope) this.drawMomentEnvelope(axes, draw);
       const points = Array.from(positions, (x, i) => [axes.toX(x), axes.toY(shape.moment[i])]);
-      axes.line(points, {colour: colour('line1'), width: 2});
+      axes.line(points, {colour: colour('line1'), width: 2, smooth: true});
       if (yieldMoment === null || yieldMoment > most) return;
       for (const level of [yieldMoment, -yieldMoment]) {
         axes.line([[axes.left, axes.toY(level)], [axes.right, axes.toY(level)]],
@@ -168,7 +168,7 @@ class Motion {
   }
 }
 
-// Plays time: so many seconds of the strike per second.
+// Plays time, to the end of the part shown: so many seconds of the strike per second.
 class Player {
   constructor(view) {
     this.view = view;
@@ -179,7 +179,8 @@ class Player {
   }
   toggle() { this.playing ? this.pause() : this.play(); }
   play() {
-    if (this.view.time >= this.view.end) this.view.setTime(0);
+    const {time, from, to} = this.view;
+    if (time >= to || time < from) this.view.setTime(from);
     this.playing = true;
     this.last = performance.now();
     requestAnimationFrame((now) => this.frame(now));
@@ -194,8 +195,8 @@ class Player {
     ++this.frames;
     const passed = Math.max(0, now - this.last) / 1e3;
     this.last = Math.max(now, this.last);
-    this.view.setTime(this.view.time + passed * this.speed);
-    if (this.view.time >= this.view.end) this.pause();
+    this.view.setTime(Math.min(this.view.time + passed * this.speed, this.view.to));
+    if (this.view.time >= this.view.to) this.pause();
     else requestAnimationFrame((next) => this.frame(next));
   }
 }

@@ -150,7 +150,16 @@ class Page {
     this.charts.forEach((chart) => chart.showPart());
     this.loop?.drawPart();
     this.timeline?.drawPart();
-    byId('part').textContent = this.view.words(this.strike.time_unit);
+    byId('part').textContent = this.chosen < 0 ? this.view.words(this.strike.time_unit) : this.rowWords();
+  }
+
+  // The row of the sub-impact that is chosen, which may be out of sight.
+  rowWords() {
+    const {cells} = document.querySelector(`[data-hit="${this.chosen}"]`);
+    const [, ...heads] = document.querySelectorAll('table.hits thead th');
+    return heads.map((head, i) => [head.firstChild.textContent, cells[i + 1].textContent.trim().replace(/\s+/g, ' '),
+                                   head.querySelector('small').textContent])
+      .filter(([, value]) => value !== '').map(([name, value, unit]) => `${name} ${value} ${unit.replace('max, ', '')}`).join(' · ');
   }
   drawTime() {
     const {time, end} = this.view;
@@ -192,9 +201,9 @@ class Page {
     if (event) parts.push(`event: ${eventKinds[event.kind].name}`);
     parts.push(index < 0 ? 'apart' : `in sub-impact ${index + 1}${strike.sub_impacts[index].certain ? '' : ' (not certain)'}`);
     if (strike.hasHistory) {
-      const depth = 1e3 * strike.at('indentation_m', time);
+      const [name, length] = index < 0 ? ['gap', strike.gapAt(time)] : ['indentation', strike.at('indentation_m', time)];
       parts.push(`force ${printed(strike.at('force_N', time))} N`,
-                 `${depth < 0 ? 'gap' : 'indentation'} ${printed(Math.abs(depth))} mm`,
+                 Math.abs(length) < 1e-5 ? `${name} ${printed(1e6 * length)} µm` : `${name} ${printed(1e3 * length)} mm`,
                  `striker ${printed(strike.at('v_m_m_per_s', time))} m/s`);
     }
     return parts.join(' · ');
@@ -221,6 +230,7 @@ class Page {
     const margin = 0.25 * Math.max(hit.end - hit.start, 1e-5 * this.view.end);
     this.view.setPart(hit.start - margin, hit.end + margin);
     this.view.setTime(hit.start);
+    this.playIn(this.view.to - this.view.from, 5);
     document.querySelectorAll('[data-hit]').forEach((row) =>
       row.classList.toggle('chosen', Number(row.dataset.hit) === index));
     this.drawWaiting();
@@ -243,6 +253,7 @@ class Page {
   showAll() {
     this.chosen = -1;
     document.querySelectorAll('[data-hit].chosen').forEach((row) => row.classList.remove('chosen'));
+    this.playIn(this.view.end, 20);
     this.view.showAll();
   }
 
@@ -290,6 +301,15 @@ class Page {
     this.later('time');
   }
 
+  // The speed at which a time of the strike lasts some seconds, unless the reader has chosen one.
+  playIn(time, seconds) {
+    const speed = byId('speed');
+    if (speed.dataset.own) return;
+    const slow = Array.from(speed.options).findLast(({value}) => value <= time / seconds) ?? speed.options[0];
+    speed.value = slow.value;
+    this.player.speed = Number(slow.value);
+  }
+
   // Microseconds of the strike per second; the whole of it in some half a minute at first.
   addSpeeds() {
     const {player, view} = this;
@@ -298,14 +318,17 @@ class Page {
     const suitable = speeds.findLast((speed) => speed <= view.end / 20) ?? speeds[0];
     const near = speeds.filter((speed) => speed > suitable / 1200 && speed < 30 * suitable);
     for (const speed of near) byId('speed').append(new Option(printed(1e6 * speed, 3) + ' µs per second', speed));
-    byId('speed').value = String(suitable);
-    player.speed = suitable;
-    byId('speed').addEventListener('change', () => { player.speed = Number(byId('speed').value); });
+    this.playIn(view.end, 20);
+    byId('speed').addEventListener('change', () => {
+      byId('speed').dataset.own = 'true';
+      player.speed = Number(byId('speed').value);
+    });
   }
 
   changeSpeed(sense) {
     const speed = byId('speed');
     speed.selectedIndex = Math.min(Math.max(speed.selectedIndex + sense, 0), speed.length - 1);
+    speed.dataset.own = 'true';
     this.player.speed = Number(speed.value);
   }
 
@@ -337,6 +360,16 @@ if (typeof Dygraph === 'undefined') byId('stills').classList.add('open');
 byId('show-stills').addEventListener('click', () => {
   byId('show-stills').setAttribute('aria-expanded', String(byId('stills').classList.toggle('open')));
 });
-addEventListener('beforeprint', () => { document.querySelector('details.verdict').open = true; });
+// Charts have the width of the window; on paper they are made smaller.
+const widthOnPaper = 400;
+addEventListener('beforeprint', () => {
+  document.querySelector('details.verdict').open = true;
+  for (const plot of document.querySelectorAll('#pulse .plot')) {
+    Object.assign(plot.style, {height: `${plot.offsetHeight}px`, zoom: widthOnPaper / plot.offsetWidth});
+  }
+});
+addEventListener('afterprint', () => {
+  for (const plot of document.querySelectorAll('#pulse .plot')) Object.assign(plot.style, {height: '', zoom: ''});
+});
 addCopyButton();
 startPage((data) => new Page(data));

@@ -14,7 +14,7 @@ class SweepColumn {
     const value = this.values[run];
     if (this.words) return this.words[value];
     if (Number.isNaN(value)) return '–';
-    return printed(value, 7) + (this.unit ? ' ' + this.unit : '');
+    return printed(value, this.isKey || Number.isInteger(value) ? 7 : 4) + (this.unit ? ' ' + this.unit : '');
   }
   // Values on a logarithmic axis: all positive, their ratios more alike than their differences.
   get isLogarithmic() {
