@@ -121,7 +121,9 @@ void add_wave(const ShearCellChain& chain, double square, double rest, bool symm
   };
   const double sign = symmetric ? 1.0 : -1.0;
   const std::size_t from_end_to_end = 2 * chain.n_cells;
-  const Complex scale = factor / (1.0 - sign * power(from_end_to_end));
+  // A wave that does not decay has at the far end the conjugate of what it has at the near one.
+  const bool decays = half.imag() > 0.0;
+  const Complex scale = (decays ? 1.0 : 2.0) * factor / (1.0 - sign * power(from_end_to_end));
   const Complex g = (s < 0.0 ? Complex(0.0, 2.0) : Complex(2.0)) * sine / chain.spacing;
   const Complex units[] = {Complex(0.0, -1.0) * g * scale, chain.gyration * rest * scale};
   const Complex ratio = power(2);
@@ -129,6 +131,7 @@ void add_wave(const ShearCellChain& chain, double square, double rest, bool symm
   for (std::size_t kind = 0; kind < 2; ++kind) {  // displacements, rotations
     const std::size_t n = (shape.size() - kind + 1) / 2, last = kind + 2 * (n - 1);
     add_powers(begin + kind, begin + kind + 2 * n, 2, units[kind] * power(1 + kind), ratio);
+    if (!decays) continue;
     const double of_far = kind == 0 ? sign : -sign;
     add_powers(begin + last, begin + kind - 2, -2,
                of_far * units[kind] * power(from_end_to_end - 1 - last), ratio);
