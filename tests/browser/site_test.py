@@ -58,6 +58,8 @@ WORDS = {
     "cluster": ["docs/populations"],
     "C++": ["docs/library", "reference/cpp"],
     "observer": ["docs/recipes", "reference/cpp/simulate"],
+    "gap": ["docs/glossary"],
+    "separation": ["docs/glossary", "docs/results"],
     "drop test": ["docs/gallery", "docs/case-file"],
 }
 

@@ -35,14 +35,9 @@ struct CellChain {
 NaturalModes free_cell_modes(const CellChain& chain, bool symmetric_only, std::size_t n_kept);
 
 /// A chain of equal cells that shear, with free ends (see TimoshenkoMesh).
-struct ShearCellChain {
-  std::size_t n_cells;
-  double spacing;            ///< dx, m
-  double mass_per_length;    ///< rho A, kg/m
-  double rotary_inertia;     ///< J, kg m
-  double bending_stiffness;  ///< E I, N m2
-  double shear_stiffness;    ///< k G A, N
-  double gyration;           ///< r, m, the unit of rotations
+struct ShearCellChain : CellChain {
+  double shear_stiffness;  ///< k G A, N
+  double gyration;         ///< r, m, the unit of rotations
 };
 
 /// Its natural modes from one equation in each frequency (docs/theory.md, "Cells that shear"); work

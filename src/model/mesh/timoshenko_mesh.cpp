@@ -362,10 +362,10 @@ bool TimoshenkoMesh::has_closed_modes() const {
 NaturalModes TimoshenkoMesh::natural_modes(double bending_stiffness) const {
   if (!has_closed_modes()) return dense_natural_modes(*this, bending_stiffness);
   const std::size_t n_cells = sides_[0].n_cells + sides_[1].n_cells + 1;
+  const CellChain cells{n_cells, sides_[0].length, mass_per_length_, rotary_inertia_,
+                        bending_stiffness};
   NaturalModes modes =
-      shear_cell_modes({n_cells, sides_[0].length, mass_per_length_, rotary_inertia_,
-                        bending_stiffness, shear_stiffness_per_length_, gyration_},
-                       symmetric());
+      shear_cell_modes({cells, shear_stiffness_per_length_, gyration_}, symmetric());
   normalise(modes, mass());
   return modes;
 }

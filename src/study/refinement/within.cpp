@@ -275,10 +275,12 @@ class Search {
     }
     const double work = work_ + work_of_next(ratio);
     if (work > work_limit_) {
-      return refuse("accuracy.work_limit",
-                    fmt::format("a finer mesh would take the counted work from {:.1e} to {:.1e}, "
-                                "above the limit of {:.1e}",
-                                work_, work, work_limit_));
+      return refuse(
+          "accuracy.work_limit",
+          fmt::format("a finer mesh would take the counted work from {:.1e} to {:.1e}, "
+                      "above the limit of {:.1e}{}",
+                      work_, work, work_limit_,
+                      input_.accuracy.event_times ? "" : " for a run without a tolerance"));
     }
     std::optional<Case> finer = refinement_->finer(best_->input, ratio);
     if (!finer) return refuse(refinement_->size_key(), "the mesh is the finest that is allowed");
