@@ -110,7 +110,7 @@ def test_a_file_is_refused_with_what_helps(why, tmp_path):
 
 def test_no_unit_of_a_heading_is_read_as_another(tmp_path):
     times, forces = {"s": 1, "ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}, {"N": 1, "kN": 1e-3, "MN": 1e-6, "mN": 1e3, "lbf": 1 / 4.4482216152605}
-    for heading in ("time [{}],force [{}]", "Zeit in {},Kraft in {}", "t/{},F/{}", "time_{},force_{}", '"time ({})","F ({})"', "{},{}"):
+    for heading in ("time [{}],force [{}]", "time [{}],Max 50 force 1/2 12/03/2024 [{}]", "Zeit in {},Kraft in {}", "t/{},F/{}", "time_{},force_{}", '"time ({})","F ({})"', "{},{}"):
         for time_unit, per_second in times.items():
             for force_unit, per_newton in forces.items():
                 path = tmp_path / "force.csv"

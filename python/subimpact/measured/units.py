@@ -41,8 +41,8 @@ def _table() -> dict[str, Unit]:
     for careless, symbol in {"S": "s", "mS": "ms", "uS": "us", "US": "us", "nS": "ns", "NS": "ns", "KN": "kN",
                              "Sa/s": "S/s", "kSa/s": "kS/s", "MSa/s": "MS/s", "1/s": "Hz"}.items():
         table[careless] = table[symbol]
-    for symbol, factor in {"lbf": 4.4482216152605, "lbs": 4.4482216152605, "kip": 4448.2216152605, "cN": 0.01, "kgf": _STANDARD_GRAVITY, "kp": _STANDARD_GRAVITY,
-                           "daN": 10.0}.items():
+    for symbol, factor in {"lbf": 4.4482216152605, "lbs": 4.4482216152605, "kip": 4448.2216152605, "kgf": _STANDARD_GRAVITY,
+                           "kp": _STANDARD_GRAVITY, "cN": 0.01, "daN": 10.0}.items():
         table[symbol] = Unit("force", factor, symbol)
     table["min"] = Unit("time", 60.0, "min")
     for symbol in ("g", "G", "gn"):
@@ -62,8 +62,9 @@ _UNITS = _table()
 BRACKETS = re.compile(r"[\[({<]\s*([^\[\](){}<>]+?)\s*[\])}>]")
 _QUANTITIES = r"t|time|zeit|f|force|kraft|load|u|voltage|spannung|a|acceleration|beschleunigung"
 #: What tells that numbers are not those of the unit that follows or stands before: "Force [N] x 1000", "F/1000 (N)", "-F (N)".
-_SCALED = re.compile(r"[x*×·]\s*(\d{2}|\d[\d.]*e)|[/*]\s*\d|10\s*\^|^\s*(-|lo?g\b|ln\b)|[])}>]\s*[x*×·]\s*\d",
-                     re.IGNORECASE)
+#: Not "Max 50 (N)", "Kanal 1/2 (N)" or a date.
+_SCALED = re.compile(r"((?<![a-z])x|[*×·])\s*(\d{2}|\d[\d.]*e)|\*\s*\d|(?<!\d)\s*/\s*\d|10\s*\^|^\s*(-|lo?g\b|ln\b)"
+                     r"|[])}>]\s*[x*×·]\s*\d", re.IGNORECASE)
 _GROUPS = re.compile(r"\s*[-+]?[1-9]\d{0,2}(?:(?P<mark>[ .,])\d{3})(?:(?P=mark)\d{3})*(?![\d.,])")
 _FRACTION = re.compile(rf"\s*(?:{_QUANTITIES})\s*/\s*(.+)", re.IGNORECASE)  # "F/N"
 
