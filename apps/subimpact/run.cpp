@@ -124,6 +124,14 @@ bool is_runnable(const CaseOptions& input, const std::vector<std::string>& more)
   }
 }
 
+// That of the run and a name: results-longer.
+std::string directory_beside(const RunOptions& options, const std::string& name) {
+  const std::filesystem::path given = std::filesystem::path(options.directory) / "";
+  const std::string last = given.parent_path().filename().string();
+  if (last.empty() || last.starts_with('.')) return options.input.directory_with("-" + name);
+  return given.parent_path().string() + "-" + name;
+}
+
 // Commands that go on from here, each with what it shows and how long it takes after a "#".
 std::vector<std::string> next_steps(const RunOptions& options, const GivenKeys& given,
                                     const WithinRun& run) {
@@ -146,8 +154,15 @@ std::vector<std::string> next_steps(const RunOptions& options, const GivenKeys& 
       append(option, value);
       if (option == "--set") settings.push_back(value);
     }
-    append("--out", options.directory.empty() ? options.input.directory_with("-" + advice.name)
-                                              : options.directory + "-" + advice.name);
+    const auto is_advised = [&](const char* name) {
+      return std::ranges::any_of(advice.options,
+                                 [&](const auto& one) { return one.first == name; });
+    };
+    if (!options.input.within.empty() && !is_advised("--within")) {
+      append("--within", options.input.within);
+    }
+    if (!options.input.opening.empty()) append("--opening", options.input.opening);
+    append("--out", directory_beside(options, advice.name));
     if (!is_runnable(options.input, settings)) continue;
     steps.push_back(fmt::format("{} # {} (about {} s)", command, advice.gain,
                                 with_digits(std::max(1.0, advice.seconds), 1)));

@@ -228,8 +228,12 @@ class ReportPage(PageTestCase):
         rows = self.program.table("strike", "history.csv")
         largest = max(float(row["force_N"]) for row in rows)
         self.assertGreater(self.js("return page.strike.at('force_N', page.view.time)"), 0.98 * largest)
-        doubts = self.js("return document.querySelectorAll('.verdict li.not, .verdict .warning').length")
-        self.assertGreater(doubts, 0)
+        doubts = self.js("return [...document.querySelectorAll('.verdict li.not')].map((e) => e.textContent)")
+        self.assertGreater(len(doubts), 0)
+        uncertain = [row["index"] for row in self.program.table("strike", "events.csv") if row["certain"] == "0" and row["doubt"]]
+        self.assertTrue(all(any(f"sub-impact {k}:" in words for words in doubts) for k in uncertain[:8]), (uncertain, doubts))
+        steps = self.js("return [...document.querySelectorAll('.steps dt')].map((e) => e.textContent)")
+        self.assertTrue(steps and all(" run " in step and " --out " in step for step in steps), steps)
         seen = "return document.querySelector('.verdict li').checkVisibility()"
         self.assertFalse(self.js(seen))
         self.find(".verdict summary").send_keys(" ")

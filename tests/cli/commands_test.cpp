@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "io/records/run_tables.h"
@@ -6,6 +8,7 @@
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/run_as_asked.h"
+#include "unwrapped.h"
 
 namespace subimpact {
 namespace {
@@ -156,6 +159,41 @@ TEST_F(ARun, OfACaseWithoutScatterDoesNotSayHowFarItCanBePredicted) {
   expect_not_in(run_program(of_paper("run", {"--out", "r"}), directory.path).output, "predictable");
   const auto summary = nlohmann::json::parse(directory.read("r/summary.json"));
   EXPECT_TRUE(summary.at("predictability").is_null());
+}
+
+TEST_F(ARun, AdvisesCommandsThatTheShellTakes) {
+  directory.write("it's a case.toml", read_file(SUBIMPACT_PAPER_CASE));
+  const Finished finished =
+      run_program({"run", "it's a case.toml", "--set", "time.end=3e-4", "--set", "title=A strike"},
+                  directory.path);
+  expect_in(unwrapped(finished.output), " report ", "beam.theory=timoshenko",
+            "model.segments=default");
+  std::istringstream lines(finished.output.substr(finished.output.find("  next ")));
+  int n_commands = 0;
+  for (std::string line; std::getline(lines, line) && !line.empty();) {
+    const auto begin = line.find(SUBIMPACT_PROGRAM);
+    if (begin == line.npos) continue;
+    ++n_commands;
+    const bool is_run = line.find(" run ") != line.npos;
+    const std::string command =
+        fmt::format("cd {} && {}{} > printed 2>&1", directory.path.string(), line.substr(begin),
+                    is_run ? " --set time.end=3e-5" : "");
+    EXPECT_EQ(std::system(command.c_str()), 0) << command << "\n" << directory.read("printed");
+  }
+  EXPECT_GE(n_commands, 3) << finished.output;
+  EXPECT_TRUE(directory.has("it's a case-longer/summary.json"));  // in directories of their own
+  const auto next =
+      nlohmann::json::parse(directory.read("it's a case-results/summary.json"))["next"];
+  EXPECT_EQ(static_cast<int>(next.size()), n_commands - 1);  // that of the page is not among them
+  for (const std::string step : next) expect_in(step, " run ", " --out ", " # ");
+}
+
+TEST(Advice, KeepsTheOptionsOfTheRunAndWritesBesideItsDirectory) {
+  const TemporaryDirectory directory;
+  directory.write("case.toml", read_file(SUBIMPACT_PAPER_CASE));
+  const Finished finished = run_in(directory, {"run", "case.toml", "--set", "time.end=3e-4",
+                                               "--out", "res/", "--opening", "2um"});
+  expect_in(unwrapped(finished.output), "--opening 2um --out res-longer");
 }
 
 }  // namespace

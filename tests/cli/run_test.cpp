@@ -74,28 +74,6 @@ TEST_F(ARun, IntoTheDirectoryOfItsCaseLeavesTheCaseAsItIs) {
   EXPECT_EQ(directory.read("case.toml"), read_file(SUBIMPACT_PAPER_CASE));
 }
 
-TEST_F(ARun, AdvisesCommandsThatTheShellTakes) {
-  directory.write("it's a case.toml", read_file(SUBIMPACT_PAPER_CASE));
-  const Finished finished =
-      run_program({"run", "it's a case.toml", "--set", "time.end=3e-4", "--set", "title=A strike"},
-                  directory.path);
-  expect_in(unwrapped(finished.output), " report ", "beam.theory=timoshenko",
-            "model.segments=default");
-  std::istringstream lines(finished.output.substr(finished.output.find("  next ")));
-  int n_commands = 0;
-  for (std::string line; std::getline(lines, line) && !line.empty();) {
-    const auto begin = line.find(SUBIMPACT_PROGRAM);
-    if (begin == line.npos) continue;
-    ++n_commands;
-    const bool is_run = line.find(" run ") != line.npos;
-    const std::string command =
-        fmt::format("cd {} && {}{} > printed 2>&1", directory.path.string(), line.substr(begin),
-                    is_run ? " --set time.end=3e-5" : "");
-    EXPECT_EQ(std::system(command.c_str()), 0) << command << "\n" << directory.read("printed");
-  }
-  EXPECT_GE(n_commands, 3) << finished.output;
-}
-
 TEST(NewCase, OfEverySceneIsCommentedAndRuns) {
   const std::string listing = run_in(TemporaryDirectory(), {"new"}).output;
   for (const char* scene :

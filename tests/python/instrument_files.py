@@ -199,6 +199,12 @@ def all_files():
                + rows(1, 2.27e-3, time_format="{:.6f}", force_format="{:.8f}")).encode())
     yield File("calibration.csv", ("Gain: 440.528634 N/V\nTime (s),CH1 (V)\n"
                + rows(1, 2.27e-3, time_format="{:.6f}", force_format="{:.8f}")).encode())
+    volts = "Sensitivity: 2.27 mV/N\n{}\ntime_us,force_V\n" + rows(1e6, 2.27e-3, force_format="{:.8f}")
+    for i, line in enumerate(("Amplifier: 480E09", "Amplifier serial number: 1234", "Gain: 0 dB", "Gain: 1", "Date: 2024.10.05")):
+        yield File(f"amplifier-{i}.csv", volts.format(line).encode())
+    yield File("gain.csv", volts.format("Amplifier: Kistler 5015\nGain: x10").encode(), {"scale": 1}, "gain")
+    yield File("interval-in-cells.csv", ("Sample rate,500,kHz\nNr,Force (N)\n"
+               + "".join(f"{i},{f:.4f}\n" for i, f in enumerate(FORCES))).encode(), begin=0.0)
     yield File("fortran.dat", ("t [us]  F [N]\n" + rows(1e6, 1, "  ", force_format="{:.6e}").replace("e+", "D+").replace("e-", "D-")).encode())
     yield File("blanks-without-a-cell.dat", ("time_ms  disp_mm  force_N  trig\n" + "".join(
         f"{1e3 * t:.4f} {'1.25' if i != 120 else '    '} {f:.5f} 7\n" for i, (t, f) in enumerate(zip(TIMES, FORCES)))).encode(), n=N - 1)

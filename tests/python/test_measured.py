@@ -93,6 +93,9 @@ REFUSED = {
     "divided by a number": ("time_us,force/1000 [N]\n" + rows(1e6, 1e-3), "units="),
     "of times in millionths": ("time x 1e6 (s),force (N)\n" + rows(1e6, 1), "units="),
     "of negative forces by name": ("time_us,-force (N)\n" + rows(1e6, 1), "units="),
+    "times a number": ("time_us,Force x 5 [N]\n" + rows(1e6, 1), "units="),
+    "times minus one": ("time_us,Force*-1 (N)\n" + rows(1e6, 1), "units="),
+    "with a power behind the unit": ("time_us,Force [N] 1e3\n" + rows(1e6, 1), "units="),
     "of logarithms": ("time_us,log force (N)\n" + rows(1e6, 1), "units="),
     "of words": ("no numbers at all\n", "no rows of numbers"),
 }
@@ -110,7 +113,8 @@ def test_a_file_is_refused_with_what_helps(why, tmp_path):
 
 def test_no_unit_of_a_heading_is_read_as_another(tmp_path):
     times, forces = {"s": 1, "ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}, {"N": 1, "kN": 1e-3, "MN": 1e-6, "mN": 1e3, "lbf": 1 / 4.4482216152605}
-    for heading in ("time [{}],force [{}]", "time [{}],Max 50 force 1/2 12/03/2024 [{}]", "Zeit in {},Kraft in {}", "t/{},F/{}", "time_{},force_{}", '"time ({})","F ({})"', "{},{}"):
+    for heading in ("time [{}],force [{}]", "Log Time [{}],Max 50 force 1/2 12/03/2024 [{}]", "time ({}),Force beam 40x20 ({})",
+                    "time ({}),Force/1 - Untitled ({})", "time ({}),/Group/0 Force ({})", "Zeit in {},Kraft in {}", "t/{},F/{}", "time_{},force_{}", '"time ({})","F ({})"', "{},{}"):
         for time_unit, per_second in times.items():
             for force_unit, per_newton in forces.items():
                 path = tmp_path / "force.csv"
@@ -210,6 +214,10 @@ def test_an_option_against_the_file_is_said(tmp_path):
     (tmp_path / "MSO.csv").write_text("Vertical Units,V\ntime_us,CH1\n" + rows(1e6, 1))
     assert any("the file says V" in words for words in measured.read(tmp_path / "MSO.csv", units="us,N").assumed)
     assert "times 2" in repr(measured.read(tmp_path / "kN.csv", scale=2))
+    assert "times 2" in repr(measured.read(tmp_path / "kN.csv", scale="2"))
+    (tmp_path / "mV.csv").write_text("# Sensitivity: 2.27 mV/N\ntime_us,U (mV)\n" + rows(1e6, 2.27))
+    with pytest.raises(si.ResultsError, match="mass is given"):
+        measured.read(tmp_path / "mV.csv", mass=0.2)
     for option in ({"sensitivity": "2 mV/N"}, {"mass": 0.2}, {"mass": "1,000 g"}, {"decimal": ";"}, {"skip": -1}, {"interval": "1,000 us"}):
         with pytest.raises(si.ResultsError, match=next(iter(option))):
             measured.read(tmp_path / "kN.csv", **option)
@@ -252,6 +260,7 @@ def test_a_fit_tells_what_the_force_does_not_determine(strike, elastic):
     for key in ("scene.gravity",):
         with pytest.raises(si.ResultsError, match=f"does not depend on {key}"):
             measured.fit(quick.changed({key: 9.81}), signal, ["striker.velocity", key])
+    assert measured.fit(quick.changed({"beam.damping.ratio": 0.0, "solver.method": "erk"}), signal, "beam.damping.ratio").values[0] < 0.1
     bounded = measured.fit(quick.changed({"striker.velocity": 15.0}), signal, "striker.velocity",
                            bounds={"striker.velocity": ("14 m/s", 15.2)})
     assert bounded.at_bound == ("striker.velocity",) and "end of its bounds" in repr(bounded)

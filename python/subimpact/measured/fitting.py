@@ -105,7 +105,8 @@ class _Runs:
             while (not self.start[key] and self.units[key] < min(limits[1][j], 1e12)
                    and np.abs(force(_BEGIN + change) - before).max() < 1e-3 * np.abs(before).max()):
                 self.units[key] *= 10.0
-            change *= 1.0 if self.start[key] else 1e3
+            if not self.start[key]:  # as far as a unit, or nine tenths of what is allowed
+                change *= min(1e3, 0.9 * (limits[1][j] - _BEGIN) / (_STEP * self.units[key]))
             if not np.abs(force(_BEGIN + change) - before).max() > _FELT * np.abs(before).max():
                 raise ResultsError(f"the {self.quantity} does not depend on {key}, or by less than rounding; leave it out of the "
                                    "fit, or begin elsewhere")

@@ -14,7 +14,7 @@ from .._errors import ResultsError
 from .._checks import is_whole
 from .._text import one_line, read_at_most
 from .tables import Table
-from .units import BRACKETS, Sensitivity, Unit, quantity, sensitivity_of, unit_of, value_in
+from .units import Sensitivity, Unit, quantity, sensitivity_of, unit_of, value_in
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -31,7 +31,7 @@ _STARTS = ("start", "starttime", "x0", "t0", "hoffset", "xzero", "firstsample")
 _MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237}
 
 
-_GAINS = ("gain", "amplifiergain", "amplification", "amplifier")
+_GAINS = ("gain", "amplifiergain", "amplification")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -212,9 +212,8 @@ class _Reading:
             return None
         if unit := self._given_unit(given) if given is not None else self.table.units[column]:
             own = self.table.units[column] or self._unit_of_metadata(column, what)
-            said = own.symbol if own else next(iter(BRACKETS.findall(self.table.names[column])), "")
-            if given is not None and said and own != unit:
-                self.overruled.append(f"{unit.symbol} as given, where the file says {said} in {self._label(column)}")
+            if own and own != unit:
+                self.overruled.append(f"{unit.symbol} as given, where the file says {own.symbol} in {self._label(column)}")
             if what == "time" and unit.kind != "time":
                 self.table.fail(self.table.heading or None, f"{self._label(column)} is in {unit.symbol}, no unit of time; give "
                                 "columns=T,F, the numbers of that of the time and that of the force, and units=us,N in this order")
@@ -271,12 +270,13 @@ class _Reading:
         if parts and parts[0] != 1.0:
             self.table.fail(self.table.heading or None, f"states a factor of {parts[0]:g}; give scale={parts[0]:g} if its numbers "
                             "are to be multiplied by it, or scale=1 if they are not")
-        gain = self._metadata(_GAINS, self.force) or ""
-        parts = quantity(gain)
-        is_electrical = self.force_unit is not None and self.force_unit.kind in ("voltage", "charge")
-        if is_electrical and parts and parts[0] != 1.0 and not sensitivity_of(gain):
-            self.table.fail(self.table.heading or None, f"states a gain of {gain}; give scale=, one over the gain if its numbers are "
-                            "to be divided by it, or scale=1 if they are not")
+        if self.force_unit is None or self.force_unit.kind not in ("voltage", "charge"):
+            return
+        for gain in (self.table.metadata[key][0] for key in _GAINS if key in self.table.metadata):
+            parts = quantity(gain.lstrip("xX×* "))
+            if parts and parts[0] != (0.0 if parts[1].lower() == "db" else 1.0) and not sensitivity_of(gain):
+                self.table.fail(self.table.heading or None, f"states a gain of {gain}; give scale=, one over the gain if its numbers "
+                                "are to be divided by it, or scale=1 if they are not")
 
     def _seconds(self, keys: tuple[str, ...]) -> float | None:
         parts = quantity(text) if (text := self._metadata(keys)) else None
@@ -293,11 +293,9 @@ class _Reading:
         table, unit, where = self.table, self.force_unit, self._label(self.force)
         assert unit is not None
         factor, kind, words = unit.factor, unit.kind, f"{self.quantity}: {where}, {unit.symbol}"
-        is_used = {"sensitivity": kind in ("voltage", "charge"), "mass": kind not in ("force", "strain")}
-        for name, value in (("sensitivity", sensitivity), ("mass", mass)):
-            if value is not None and not is_used[name]:
-                table.fail(table.heading or None, f"{name} is given, and {where} is in {unit.symbol}; leave it out, or give "
-                           f"units=us,{'V' if name == 'sensitivity' else 'g'} if that is its unit")
+        if sensitivity is not None and kind not in ("voltage", "charge"):
+            table.fail(table.heading or None, f"sensitivity is given, and {where} is in {unit.symbol}; leave it out, or give "
+                       "units=us,V if that is its unit")
         if kind in ("voltage", "charge"):
             stated = (self._metadata((key,), self.force) for key in ("sensitivity", "empfindlichkeit", "calibrationfactor", *_GAINS))
             own = next((text for text in stated if text and sensitivity_of(text)), None)
@@ -318,6 +316,9 @@ class _Reading:
                 table.fail(table.heading or None, f"{where} is an acceleration; give mass=\"0.2 kg\", that of the body which it is "
                            "measured on")
             factor, kind, words = factor * kilograms, "force", words + f" times {kilograms:g} kg"
+        elif mass is not None:
+            table.fail(table.heading or None, f"mass is given, and {words.removeprefix(self.quantity + ': ')} is no acceleration; "
+                       "leave it out, or give units=us,g if that is its unit")
         if kind != self.quantity:
             table.fail(table.heading or None, f"{where} is in {unit.symbol}, no unit of force; give columns=T,F, the numbers of "
                        "that of the time and that of the force, or units=us,N")
@@ -386,14 +387,15 @@ def read(
     if sign is None and "times" in words and np.nanmin(forces) < -np.nanmax(forces):
         forces, words = -forces, words + ", which slows the striker down: sign changed"
     if scale not in (None, 1):
-        words += f", times {scale:g}"
+        words += f", times {float(scale):g}"
     return _signal(table, wanted, times, forces, [how, words, *reading.overruled], sign, reading.quantity)
 
 
 def _content(path: Any) -> tuple[str, bytes]:
     """Of a file, an open one, or a DataFrame: its name and what it holds."""
     if hasattr(path, "to_csv"):
-        return "DataFrame", path.to_csv(index=path.index.name is not None).encode()
+        counts = type(path.index).__name__ == "RangeIndex"
+        return "DataFrame", path.to_csv(index=path.index.name is not None or not counts).encode()
     if hasattr(path, "read"):
         text = path.read()
         return str(getattr(path, "name", "text")), text if isinstance(text, bytes) else text.encode()
@@ -410,7 +412,8 @@ def _resolved(table: Table, column: int, times: npt.NDArray[np.float64]) -> tupl
     known = times[np.isfinite(times)]
     if len(known) < 2 or np.spacing(np.abs(known).max()) < 1e-5 * (np.ptp(known) / len(known)):
         return times, []
-    return table.from_first(column), [f"times counted from the first, {known[0]:.10g}"]
+    exact = np.where(np.isfinite(times), table.from_first(column), np.nan)
+    return exact, [f"times counted from the first, {known[0]:.10g}"]
 
 
 def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], forces: npt.NDArray[np.float64],

@@ -281,8 +281,9 @@ class Table:
             return f"~{value}" if quantity(value) or quantity(value, ",") else value
 
         values = tuple(map(plain, values))
-        if len(values) > 1 and re.fullmatch(r"[-+\d.e]+", values[0]) and sensitivity_of(f"{values[0]} {values[1]}"):
-            values = (f"{values[0]} {values[1]}",)  # "Sensitivity,2.27,mV/N"
+        if len(values) == 2 and re.fullmatch(r"[-+\d.e]+", values[0]):  # "Sensitivity,2.27,mV/N"
+            both = f"{values[0]} {values[1]}"
+            values = (both,) if unit_of(values[1]) or sensitivity_of(both) else values
         self.metadata.setdefault(re.sub(r"[\[({].*|[^a-z0-9]", "", key.lower()), list(values))
 
     def numbers(self, wanted: list[int]) -> npt.NDArray[np.float64]:

@@ -61,11 +61,12 @@ def _table() -> dict[str, Unit]:
 _UNITS = _table()
 BRACKETS = re.compile(r"[\[({<]\s*([^\[\](){}<>]+?)\s*[\])}>]")
 _QUANTITIES = r"t|time|zeit|f|force|kraft|load|u|voltage|spannung|a|acceleration|beschleunigung"
-#: What tells that numbers are not those of the unit that follows or stands before: "Force [N] x 1000", "F/1000 (N)", "-F (N)".
-#: Not "Max 50 (N)", "Kanal 1/2 (N)" or a date.
-_SCALED = re.compile(r"((?<![a-z])x|[*×·])\s*(\d{2}|\d[\d.]*e)|\*\s*\d|(?<!\d)\s*/\s*\d|10\s*\^|^\s*(-|lo?g\b|ln\b)"
-                     r"|[])}>]\s*[x*×·]\s*\d", re.IGNORECASE)
 _GROUPS = re.compile(r"\s*[-+]?[1-9]\d{0,2}(?:(?P<mark>[ .,])\d{3})(?:(?P=mark)\d{3})*(?![\d.,])")
+#: What tells that numbers are not those of the unit that follows or stands before: "Force [N] x 1000", "F/1000 (N)", "-F (N)",
+#: "log F (N)"; not "Max 50 (N)", "Force/1 - Untitled (N)" or a date.
+_SCALED = re.compile(rf"(?:\b(?:{_QUANTITIES}|strain|dehnung)|[])}}>])\s*\(?\s*(?:[x*×·]\s*[-+]?\d|/\s*(?:\d{{2}}|\d[\d.]*e))"
+                     rf"|10\s*\^|^\s*-|^\s*(?:log|lg|ln)\w*\W*(?:f|force|kraft|load|strain)\b|[])}}>]\s*\d[\d.]*(?:e[-+]?\d+)?\s*$",
+                     re.IGNORECASE)
 _FRACTION = re.compile(rf"\s*(?:{_QUANTITIES})\s*/\s*(.+)", re.IGNORECASE)  # "F/N"
 
 

@@ -235,11 +235,10 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
     const auto last =
         std::ranges::find(run.sub_impacts | std::views::reverse, zone.zone, &SubImpact::zone);
     const auto index = static_cast<std::size_t>(run.sub_impacts.rend() - last) - 1;
-    const bool have_rows_all_errors =
+    const bool rows_have_all_errors =
         std::ranges::all_of(beside, [](const RunBeside& other) { return other.of.of_rows; });
-    if (have_rows_all_errors && last->certain.value_or(false) && !estimate.doubt_after(index)) {
-      totals.end.error = zone.end_error;
-    }
+    const bool is_last = last->certain.value_or(false) && !estimate.doubt_after(index);
+    if (zone.end_error && rows_have_all_errors && is_last) totals.end.error = zone.end_error;
   }
   Total count = sum_of_counts(estimate.zones);
   if (run.sub_impacts.empty() && estimate.first_unresolved) count.error = 1.0;

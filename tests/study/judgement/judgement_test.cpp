@@ -136,14 +136,17 @@ TEST(AJudgement, OfRealRunsIsOneAccount) {
     Case input = paper_run(SectionKind::elastic, end, 61, Method::exponential);
     const Result judged = simulate_judged(input, cases_beside(input), 2);
     expect_one_account(judged);
-    // The end of a zone is that of its last sub-impact, with the same error.
-    const std::size_t last = judged.sub_impacts.size() - 1;
-    if (*judged.sub_impacts[last].certain && !judged.error_estimate->doubt_after(last)) {
-      EXPECT_EQ(judged.error_estimate->zones.back().end.error, judged.sub_impacts[last].end_error);
-    }
     expect_one_account(simulate_judged(input, cases_beside_on_given_mesh(input), 2));
     expect_one_account(simulate_judged(input, cases_beside_by_part(input), 2));
   }
+}
+
+TEST(AJudgement, EndsAZoneWithTheErrorOfItsLastSubImpact) {
+  const Result run = judged(contacts(3), contacts(3, 0.5 * us));
+  const SubImpact& last = run.sub_impacts.back();
+  ASSERT_TRUE(*last.certain);
+  ASSERT_GT(last.end_error.value(), 0.0);
+  EXPECT_EQ(run.error_estimate->zones.back().end.error, last.end_error);
 }
 
 // Four contacts, the second of which is split in two.

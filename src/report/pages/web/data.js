@@ -112,7 +112,7 @@ class Strike {
   }
 
   subImpactAt(time) {
-    return this.sub_impacts.findIndex((s) => time >= s.start && time < s.end);
+    return this.sub_impacts.findIndex((s) => time >= s.start && (time < s.end || s.ongoing));
   }
 
   // How far apart the surfaces are, m: less than 0 in contact.
