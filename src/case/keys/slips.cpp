@@ -154,8 +154,8 @@ std::string_view after_any_of(std::string_view characters, std::string_view text
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   std::string best;
-  // A name that differs in more than a third of its letters is another word, not a slip; one that is
-  // cut short is none.
+  // A name that differs in more than a third of its letters is another word, not a slip; one that
+  // is cut short is none.
   const std::size_t furthest = std::max<std::size_t>(1, name.size() / 3);
   std::size_t best_distance = furthest + 1;
   constexpr std::size_t fewest_letters = 3;
