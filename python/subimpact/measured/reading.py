@@ -386,7 +386,7 @@ def read(
     forces = numbers[:, -1] * factor * (1.0 if scale is None else float(scale))
     if sign is None and "times" in words and np.nanmin(forces) < -np.nanmax(forces):
         forces, words = -forces, words + ", which slows the striker down: sign changed"
-    if scale not in (None, 1):
+    if scale is not None and float(scale) != 1.0:
         words += f", times {float(scale):g}"
     return _signal(table, wanted, times, forces, [how, words, *reading.overruled], sign, reading.quantity)
 
