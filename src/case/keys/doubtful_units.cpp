@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "case/counted.h"
 #include "case/problem.h"
 #include "model/contact/contact_laws.h"
 #include "model/mesh/modes.h"
@@ -204,10 +205,6 @@ constexpr double largest_deflection = 0.5;   // over the thickness, of a beam he
 constexpr double deepest_indentation = 0.1;  // over the nose radius
 constexpr double least_pull = 0.01;          // over the largest force of a support
 
-std::string with_three_digits(double value) {
-  return fmt::format("{:.10g}", std::stod(fmt::format("{:.2e}", value)));
-}
-
 // Supports that hold the beam down, where it may only rest on them.
 void add_pulls(const Beam& beam, const Result& result, std::vector<std::string>& sentences) {
   double largest = 0.0;
@@ -221,7 +218,7 @@ void add_pulls(const Beam& beam, const Result& result, std::vector<std::string>&
     sentences.push_back(fmt::format(
         "the support at x = {} pulls the beam by up to {} N, at {:.4g} us: a beam that only "
         "rests on it would lift off there, which the model leaves out",
-        end == 0 ? "0" : "length", with_three_digits(forces->largest.value),
+        end == 0 ? "0" : "length", with_significant(forces->largest.value, 3),
         us * forces->largest.time));
   }
 }

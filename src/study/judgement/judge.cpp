@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/counted.h"
 #include "numerics/median.h"
 #include "numerics/units.h"
 #include "study/judgement/mesh_resolution.h"
@@ -116,8 +117,8 @@ std::string Judge::doubt_of(std::size_t i, double strictness) const {
   }
   const SubImpact& here = all_[i];
   const auto small = [](const char* what, double length, double error, const char* unit) {
-    return fmt::format("{} is {:.2g} {} with an error of {:.2g} {}", what, length, unit, error,
-                       unit);
+    return fmt::format("{} is {} {} with an error of {} {}", what, with_significant(length, 2),
+                       unit, with_significant(error, 2), unit);
   };
   const double touch = strictness * delta(2 * i);
   if (!(touch < depth(i))) return small("its indentation", um * depth(i), um * touch, "um");
@@ -331,9 +332,9 @@ std::string Judge::doubt_by_near_miss(NearMissKind kind, std::size_t i, double s
         strictness * margin_error(here, end - start, delta(opens ? 2 * i : 2 * i + 1));
     // A contact that opens by less than the limit stays one.
     if (here.margin > error - (opens ? input_.output.opening : 0.0)) continue;
-    return fmt::format("at {:.6g} us the {}: {:.2g} um are left with an error of {:.2g} um",
-                       us * here.time, opens ? "contact nearly opens" : "gap nearly closes",
-                       um * here.margin, um * error);
+    return fmt::format("at {:.6g} us the {}: {} um are left with an error of {} um", us * here.time,
+                       opens ? "contact nearly opens" : "gap nearly closes",
+                       with_significant(um * here.margin, 2), with_significant(um * error, 2));
   }
   return {};
 }
