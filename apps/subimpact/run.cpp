@@ -144,7 +144,12 @@ std::vector<std::string> next_steps(const RunOptions& options, const GivenKeys& 
     const auto append = [&](const std::string& option, const std::string& value) {
       command += fmt::format(" {} {}", option, quoted(value));
     };
-    if (!options.input.method.empty()) append("--method", options.input.method);
+    for (const auto& [option, value] :
+         {std::pair("--method", options.input.method), std::pair("--within", options.input.within),
+          std::pair("--opening", options.input.opening)}) {
+      const auto is_it = [&](const auto& advised) { return advised.first == option; };
+      if (!value.empty() && std::ranges::none_of(advice.options, is_it)) append(option, value);
+    }
     for (const std::string& setting : options.input.settings) {
       const std::string key = setting.substr(0, setting.find('=') + 1);
       const auto replaces = [&](const auto& option) { return option.second.starts_with(key); };
@@ -154,14 +159,6 @@ std::vector<std::string> next_steps(const RunOptions& options, const GivenKeys& 
       append(option, value);
       if (option == "--set") settings.push_back(value);
     }
-    const auto is_advised = [&](const char* name) {
-      return std::ranges::any_of(advice.options,
-                                 [&](const auto& one) { return one.first == name; });
-    };
-    if (!options.input.within.empty() && !is_advised("--within")) {
-      append("--within", options.input.within);
-    }
-    if (!options.input.opening.empty()) append("--opening", options.input.opening);
     append("--out", directory_beside(options, advice.name));
     if (!is_runnable(options.input, settings)) continue;
     steps.push_back(fmt::format("{} # {} (about {} s)", command, advice.gain,

@@ -193,7 +193,8 @@ TEST(Advice, KeepsTheOptionsOfTheRunAndWritesBesideItsDirectory) {
   directory.write("case.toml", read_file(SUBIMPACT_PAPER_CASE));
   const Finished finished = run_in(directory, {"run", "case.toml", "--set", "time.end=3e-4",
                                                "--out", "res/", "--opening", "2um"});
-  expect_in(unwrapped(finished.output), "--opening 2um --out res-longer");
+  expect_in(unwrapped(finished.output),
+            "run case.toml --opening 2um --set time.end=0.0006 --out res-longer");
 }
 
 }  // namespace

@@ -206,6 +206,10 @@ class _Reading:
                 return re.sub(r"^[A-Za-z]\w*:\s*", "", values[0])
         return None
 
+    def _each(self, keys: tuple[str, ...]) -> list[str]:
+        """What the metadata say of the force by each of these keys."""
+        return [text for key in keys if (text := self._metadata((key,), self.force))]
+
     def _unit(self, column: int | None, given: Column | None, what: str) -> Unit | None:
         """The unit of a column: as given, by the heading, or by the metadata."""
         if column is None:
@@ -272,7 +276,7 @@ class _Reading:
                             "are to be multiplied by it, or scale=1 if they are not")
         if self.force_unit is None or self.force_unit.kind not in ("voltage", "charge"):
             return
-        for gain in (self.table.metadata[key][0] for key in _GAINS if key in self.table.metadata):
+        for gain in self._each(_GAINS):
             parts = quantity(gain.lstrip("xX×* "))
             if parts and parts[0] != (0.0 if parts[1].lower() == "db" else 1.0) and not sensitivity_of(gain):
                 self.table.fail(self.table.heading or None, f"states a gain of {gain}; give scale=, one over the gain if its numbers "
@@ -297,8 +301,8 @@ class _Reading:
             table.fail(table.heading or None, f"sensitivity is given, and {where} is in {unit.symbol}; leave it out, or give "
                        "units=us,V if that is its unit")
         if kind in ("voltage", "charge"):
-            stated = (self._metadata((key,), self.force) for key in ("sensitivity", "empfindlichkeit", "calibrationfactor", *_GAINS))
-            own = next((text for text in stated if text and sensitivity_of(text)), None)
+            stated = self._each(("sensitivity", "empfindlichkeit", "calibrationfactor", *_GAINS))
+            own = next(filter(sensitivity_of, stated), None)
             text = sensitivity or own
             known: Sensitivity | None = sensitivity_of(str(text)) if text else None
             if sensitivity and own and sensitivity_of(own) not in (None, known):

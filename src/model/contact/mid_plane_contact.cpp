@@ -24,6 +24,20 @@ double integral(F f, double from, double to, int panels) {
   return (to - from) * sum / panels;
 }
 
+// The last value computed of a law at some argument: a run asks several times for the same.
+template <class Value>
+struct Last {
+  std::uint64_t law = 0;
+  double at = 0.0;
+  Value value = {};
+
+  template <class Compute>
+  const Value& of(std::uint64_t this_law, double argument, Compute compute) {
+    if (law != this_law || at != argument) *this = {this_law, argument, compute()};
+    return value;
+  }
+};
+
 // Of half widths for which starts are stored, in nose radii; below and above, guesses do.
 constexpr double narrowest = 1e-6, widest_of_radius = 1.0;
 
@@ -73,56 +87,34 @@ ValueAndSlope MidPlaneContact::elastic_indentation(double stiffness, double a) c
   return indentation(a, stiffness / nose_.stiffness, elastic_force(stiffness, a));
 }
 
-// A run asks several times in each step for the same.
 double MidPlaneContact::half_width_at(double lambda) const {
-  struct Last {
-    std::uint64_t law = 0;
-    double lambda = 0.0, a = 0.0;
-  };
-  thread_local Last last;
-  if (last.law != serial_ || last.lambda != lambda) {
+  thread_local Last<double> last;
+  return last.of(serial_, lambda, [&] {
     const auto curve = [this](double a) { return indentation(a, 1.0, loading_force(a)); };
     const StartTable& starts = lambda > first_yield_ ? plastic_starts_ : elastic_starts_;
-    const double guess = std::sqrt(1.5 * nose_.radius * lambda);
-    last = {serial_, lambda, inverse_of_power(curve, lambda, starts(lambda, guess))};
-  }
-  return last.a;
+    return inverse_of_power(curve, lambda, starts(lambda, std::sqrt(1.5 * nose_.radius * lambda)));
+  });
 }
 
 // A dent's indentations are those of the flat surface times k_m/k.
 double MidPlaneContact::half_width_of(const Dent& dent, double lambda) const {
   const double above = std::abs(lambda - dent.residual) * (nose_.stiffness / dent.stiffness);
   if (above == 0.0) return 0.0;
-  struct Last {
-    std::uint64_t law = 0;
-    double above = 0.0, a = 0.0;
-  };
-  thread_local Last last;  // force and slope are asked for one after the other
-  if (last.law != serial_ || last.above != above) {
+  thread_local Last<double> last;
+  return last.of(serial_, above, [&] {
     const auto curve = [this](double a) { return elastic_indentation(nose_.stiffness, a); };
-    const double guess = std::sqrt(nose_.radius * above);
-    last = {serial_, above, inverse_of_power(curve, above, elastic_starts_(above, guess))};
-  }
-  return last.a;
+    return inverse_of_power(curve, above, elastic_starts_(above, std::sqrt(nose_.radius * above)));
+  });
 }
 
-// A run asks thousands of times for the same dent.
 MidPlaneContact::Dent MidPlaneContact::dent_of(ContactHistory history) const {
   const double deepest = history.max_indentation;
   if (!(deepest > first_yield_)) return {nose_.stiffness, 0.0};
-  struct Last {
-    std::uint64_t law = 0;
-    double deepest = 0.0;
-    Dent dent = {};
-  };
-  thread_local Last last;
-  if (last.law != serial_ || last.deepest != deepest) {
+  thread_local Last<Dent> last;
+  return last.of(serial_, deepest, [&]() -> Dent {
     const double a = half_width_at(deepest), stiffness = loading_force(a).at / power(a);
-    last = {serial_,
-            deepest,
-            {stiffness, 0.5 * a * a / nose_.radius * (1.0 - stiffness / nose_.stiffness)}};
-  }
-  return last.dent;
+    return {stiffness, 0.5 * a * a / nose_.radius * (1.0 - stiffness / nose_.stiffness)};
+  });
 }
 
 double MidPlaneContact::residual_indentation(ContactHistory history) const {

@@ -42,9 +42,10 @@ struct ShearCellChain : CellChain {
 
 /// Its natural modes from one equation in each frequency (docs/theory.md, "Cells that shear"); work
 /// n^2 for n modes. Frequencies ascend, rigid translation and rotation first; shapes have the
-/// unknowns of a TimoshenkoMesh, those of its first half where `symmetric_only`, and are not
-/// normalised.
-NaturalModes shear_cell_modes(const ShearCellChain& chain, bool symmetric_only);
+/// unknowns of a TimoshenkoMesh, those of its first half where `symmetric_only`, and unit `mass`.
+/// Empty if two waves have the same frequency: the matrix must then be decomposed.
+std::optional<NaturalModes> shear_cell_modes(const ShearCellChain& chain, bool symmetric_only,
+                                             const BandedMatrix& mass);
 
 /// A chain of equal Hermite elements (see HermiteMesh).
 struct HermiteChain {

@@ -2,12 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
-#include <numeric>
+#include <span>
+#include <vector>
 
 #include "model/mesh/modes.h"
 #include "numerics/bracketed_root.h"
+#include "numerics/lanes.h"
 
 // A chain whose ends do not turn (phi = 0 at the end faces, no shear force) has waves for modes.
 // A free end is such an end without the section of its end cell, and with the rotary inertia of
@@ -20,6 +21,10 @@ namespace {
 using std::numbers::pi;
 using Complex = std::complex<double>;
 using Array = Eigen::ArrayXd;
+
+// Of poles closer to each other than `close`, relative to their size, the mode between them has its
+// shares of both waves from its neighbours; closer than `apart` it cannot be found.
+constexpr double apart = 1e-11, close = 1e-5;
 
 // Frequencies squared of waves, and their part in the rotation of the first face.
 struct Poles {
@@ -96,6 +101,7 @@ void add_powers(double* first, const double* end, std::ptrdiff_t step, Complex v
   const double decay = -std::log(std::abs(ratio));
   const double range = std::log(std::abs(value)) - std::log(felt);
   auto n = (end - first) / step;
+  if (!(range > 0.0)) return;
   if (!(range > static_cast<double>(n) * decay)) n = static_cast<std::ptrdiff_t>(range / decay);
   double a = value.real(), b = value.imag();
   for (double* at = first; n > 0; --n, at += step) {
@@ -155,15 +161,30 @@ void fill_shape(const ShearCellChain& chain, double lambda, bool symmetric,
   add_wave(chain, other, second, symmetric, -1.0, shape);
 }
 
+// Takes from a mode what it has of the others, all of unit mass.
+void make_orthogonal(NaturalModes& modes, std::size_t k, const BandedMatrix& mass) {
+  const std::span<double> shape = modes.shape(k);
+  std::vector<double> inertia(shape.size());
+  mass.multiply(shape, inertia);
+  for (std::size_t j = 0; j < modes.size(); ++j) {
+    if (j == k) continue;
+    const double share = dot(inertia.data(), modes.shape(j).data(), shape.size());
+    for (std::size_t i = 0; i < shape.size(); ++i) shape[i] -= share * modes.shape(j)[i];
+  }
+  const double size = std::sqrt(mass.quadratic_form(shape));
+  for (double& value : shape) value /= size;
+}
+
 }  // namespace
 
-NaturalModes shear_cell_modes(const ShearCellChain& chain, bool symmetric_only) {
+std::optional<NaturalModes> shear_cell_modes(const ShearCellChain& chain, bool symmetric_only,
+                                             const BandedMatrix& mass) {
   const double dx = chain.spacing;
   const double a = chain.bending_stiffness / dx;
   const double b = 0.5 * chain.rotary_inertia * dx;
   struct Root {
     double lambda;
-    bool symmetric;
+    bool symmetric, is_between_close_poles;
   };
   std::vector<Root> roots;
   for (const bool symmetric : {true, false}) {
@@ -171,7 +192,9 @@ NaturalModes shear_cell_modes(const ShearCellChain& chain, bool symmetric_only) 
     const Poles poles = poles_of(chain, symmetric);
     // The first antisymmetric root is the rigid rotation's.
     for (Eigen::Index i = symmetric ? 0 : 1; i < poles.lambda.size(); ++i) {
-      roots.push_back({root_below(poles, i, a, b), symmetric});
+      const double gap = i > 0 ? 1.0 - poles.lambda[i - 1] / poles.lambda[i] : 1.0;
+      if (!(gap > apart)) return std::nullopt;
+      roots.push_back({root_below(poles, i, a, b), symmetric, gap < close});
     }
   }
   std::ranges::sort(roots, {}, &Root::lambda);
@@ -199,6 +222,10 @@ NaturalModes shear_cell_modes(const ShearCellChain& chain, bool symmetric_only) 
       const bool alike = symmetric == (i % 2 == 0);
       values[i] = (alike ? 1.0 : -1.0) * values[n - 1 - i];
     }
+  }
+  normalise(modes, mass);
+  for (std::size_t k = 0; k < roots.size(); ++k) {
+    if (roots[k].is_between_close_poles) make_orthogonal(modes, n_rigid + k, mass);
   }
   return modes;
 }

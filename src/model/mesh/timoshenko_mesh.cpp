@@ -364,10 +364,9 @@ NaturalModes TimoshenkoMesh::natural_modes(double bending_stiffness) const {
   const std::size_t n_cells = sides_[0].n_cells + sides_[1].n_cells + 1;
   const CellChain cells{n_cells, sides_[0].length, mass_per_length_, rotary_inertia_,
                         bending_stiffness};
-  NaturalModes modes =
-      shear_cell_modes({cells, shear_stiffness_per_length_, gyration_}, symmetric());
-  normalise(modes, mass());
-  return modes;
+  std::optional<NaturalModes> modes =
+      shear_cell_modes({cells, shear_stiffness_per_length_, gyration_}, symmetric(), mass());
+  return modes ? std::move(*modes) : dense_natural_modes(*this, bending_stiffness);
 }
 
 std::string TimoshenkoMesh::description() const {

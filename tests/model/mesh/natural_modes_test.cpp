@@ -103,6 +103,18 @@ INSTANTIATE_TEST_SUITE_P(, ModesOfCellsThatShear,
                                          ShearChain{501, TimoshenkoMesh::Extent::half}),
                          NamedAsPrinted{});
 
+// At this k G two waves of the half beam have the same frequency to the last digit.
+TEST(CellsThatShear, HaveOrthonormalModesWhereTwoWavesHaveOneFrequency) {
+  for (const double apart : {0.0, 1e-12, 1e-10, 1e-8, 1e-6}) {
+    Beam beam = paper_beam(BeamTheory::timoshenko);
+    beam.poisson = 0.3;
+    beam.shear_coefficient = 0.85 * 1.0007773822171875 * (1.0 + apart);
+    const TimoshenkoMesh mesh(beam, 0.5, 501, TimoshenkoMesh::Extent::half);
+    SCOPED_TRACE(apart);
+    expect_modes(mesh, beam.bending_stiffness(), 2e-10, 2e-10);
+  }
+}
+
 class ModalCoordinates : public testing::Test {
  protected:
   Beam beam_ = paper_beam();

@@ -27,8 +27,8 @@ double inverse_of_power(const Curve& curve, double target, double start) {
   return x;
 }
 
-/// Starts for it that are right to some 1e-8, so that one step suffices: ln x over the logarithm of
-/// the value, by cubics between points that are a sixteenth apart.
+/// Starting values for inverse_of_power, right to some 1e-8, so that one step suffices: ln x over
+/// the logarithm of the value, by cubics between points that are a sixteenth apart.
 class StartTable {
  public:
   StartTable() = default;
