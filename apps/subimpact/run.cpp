@@ -132,11 +132,11 @@ std::string directory_beside(const RunOptions& options, const std::string& name)
   return given.parent_path().string() + "-" + name;
 }
 
-// Commands that go on from here, each with what it shows and how long it takes after a "#".
-std::vector<std::string> next_steps(const RunOptions& options, const GivenKeys& given,
-                                    const WithinRun& run) {
+// Commands that go on from here.
+std::vector<NextStep> next_steps(const RunOptions& options, const GivenKeys& given,
+                                 const WithinRun& run) {
   const std::string program = quoted(program_invocation_name);
-  std::vector<std::string> steps;
+  std::vector<NextStep> steps;
   if (run.input.parts.start) return steps;  // advice is for a first strike
   for (const Advice& advice : advice(run.input, given, run.result)) {
     std::vector<std::string> settings;
@@ -161,27 +161,23 @@ std::vector<std::string> next_steps(const RunOptions& options, const GivenKeys& 
     }
     append("--out", directory_beside(options, advice.name));
     if (!is_runnable(options.input, settings)) continue;
-    steps.push_back(fmt::format("{} # {} (about {} s)", command, advice.gain,
-                                with_digits(std::max(1.0, advice.seconds), 1)));
+    const std::string seconds = with_digits(std::max(1.0, advice.seconds), 1);
+    steps.push_back({command, fmt::format("{} (about {} s)", advice.gain, seconds)});
   }
   return steps;
 }
 
 // The end of the summary.
-std::string next_lines(const std::vector<std::string>& steps, const std::string& directory) {
-  std::string text;
-  const auto add = [&](const std::string& step) {
-    const std::size_t at = step.rfind(" # ");
-    text += fmt::format("  {:<19} {}\n{:24}{}\n", text.empty() ? "next" : "", step.substr(0, at),
-                        "", step.substr(at + 3));
-  };
+std::string next_lines(std::vector<NextStep> steps, const std::string& directory) {
   if (!directory.empty()) {
-    add(
-        fmt::format("{} report {} # draws it: the moving beam, charts, every number on one page (a "
-                    "few seconds)",
-                    quoted(program_invocation_name), quoted(directory)));
+    steps.insert(steps.begin(),
+                 {fmt::format("{} report {}", quoted(program_invocation_name), quoted(directory)),
+                  "draws it: the moving beam, charts, every number on one page (a few seconds)"});
   }
-  for (const std::string& step : steps) add(step);
+  std::string text;
+  for (const auto& [command, gain] : steps) {
+    text += fmt::format("  {:<19} {}\n{:24}{}\n", text.empty() ? "next" : "", command, "", gain);
+  }
   return text;
 }
 

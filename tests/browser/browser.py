@@ -59,8 +59,11 @@ class Program:
 
     def __init__(self, path, case):
         self.path = pathlib.Path(path).resolve()
-        self.case = pathlib.Path(case).resolve()
         self.directory = pathlib.Path(tempfile.mkdtemp(prefix="subimpact-browser-"))
+        # Of a name that no line of a narrow page holds and that offers no place to break it.
+        self.case = self.directory / ("Case" * 25) / pathlib.Path(case).name
+        self.case.parent.mkdir()
+        shutil.copy(case, self.case)
 
     def __call__(self, *arguments):
         done = subprocess.run([self.path, *map(str, arguments)], cwd=self.directory,

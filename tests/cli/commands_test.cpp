@@ -185,7 +185,10 @@ TEST_F(ARun, AdvisesCommandsThatTheShellTakes) {
   const auto next =
       nlohmann::json::parse(directory.read("it's a case-results/summary.json"))["next"];
   EXPECT_EQ(static_cast<int>(next.size()), n_commands - 1);  // that of the page is not among them
-  for (const std::string step : next) expect_in(step, " run ", " --out ", " # ");
+  for (const auto& step : next) {
+    expect_in(step["command"].get<std::string>(), " run ", " --out ");
+    expect_in(step["gain"].get<std::string>(), " (about ");
+  }
 }
 
 TEST(Advice, KeepsTheOptionsOfTheRunAndWritesBesideItsDirectory) {

@@ -231,6 +231,12 @@ struct ResolvedSettings {
   double decomposition = 0.0;
 };
 
+/// A command that goes on from here.
+struct NextStep {
+  std::string command;  ///< as the shell takes it
+  std::string gain;     ///< what it shows, and how long it takes
+};
+
 /// The cost of a run: of the integration (including mass solves and right-hand sides of the beam)
 /// and of event location.
 struct Work : WorkCounts {
@@ -307,8 +313,7 @@ struct Result : Assessment {
   std::shared_ptr<const RunState> end_state;
   /// Warnings about results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
-  /// Commands that go on from here, what they are for after a "#"; of `subimpact run` alone.
-  std::vector<std::string> next_steps;
+  std::vector<NextStep> next_steps;  ///< of `subimpact run` alone
   Work work;
 
   /// Whether the whole result passed every check. If not, the part up to

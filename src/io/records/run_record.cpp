@@ -155,6 +155,10 @@ const Record<PlasticZone> plastic_zone_record = {
     {"to_m", "where it ends", &PlasticZone::to},
     {"rotation_rad", "its rotation", &PlasticZone::rotation}};
 
+const Record<NextStep> next_step_record = {
+    {"command", "as the shell takes it", &NextStep::command},
+    {"gain", "what it shows, and how long it takes", &NextStep::gain}};
+
 const Record<EnvelopeRow::Range> reaction_record = {
     {"least_N", "smallest force of the support on the beam, positive along the strike", [](auto& r) -> auto& { return r.smallest.value; }, Form::finite},
     {"least_time_s", "when", [](auto& r) -> auto& { return r.smallest.time; }, Form::finite},
@@ -308,14 +312,6 @@ std::optional<BeamAtRest> beam_at_rest(const DescribedRun& run) {
   return BeamAtRest{largest.set_from_supports, largest.position, result.plastic_zones};
 }
 
-std::string contact_over(const DescribedRun& run) {
-  return run.result->contact_over ? "yes" : "may not be";
-}
-
-void read_contact_over(const Json& json, DescribedRun& run) {
-  run.result->contact_over = json == "yes";
-}
-
 void read_rest(const Json& json, DescribedRun& run) {
   BeamAtRest rest;
   if (!json.is_null()) assign(rest_record, json, rest);
@@ -375,7 +371,7 @@ Record<DescribedRun> make_run_record() {
       {"model_choice", "why theory and contact law are what they are, if they were chosen", [](auto& run) -> auto& { return run.input->model_choice; }},
       {"model_errors", "errors of the model itself; null: not estimated", result(&Result::model_errors), model_record},
       {"warnings", "warnings about results that passed all checks", result(&Result::warnings)},
-      {"next", "commands that go on from here, and what they are for", result(&Result::next_steps)},
+      {"next", "what can be done from here", result(&Result::next_steps), next_step_record},
       {"counts.sub_impacts", "number of sub-impacts", [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},
       {"counts.parted_by_1_um", "sub-impacts after which striker and beam part by as much or more", [](const DescribedRun& run) { return n_parted_by(1e-6, run.result->sub_impacts); }},
       {"counts.parted_by_10_um", "the same for 10 um", [](const DescribedRun& run) { return n_parted_by(1e-5, run.result->sub_impacts); }},
@@ -390,7 +386,7 @@ Record<DescribedRun> make_run_record() {
       {"first_yield.section_s", "when a section first yields; null: never", result(&Result::first_section_yield)},
       {"first_yield.contact_s", "when the contact first yields; null: never", result(&Result::first_contact_yield)},
       {"no_more_contact_s", "from when it is proven that no contact follows", result(&Result::no_more_contact)},
-      {"contact_over", "yes: proven that no contact follows, for this run and those beside it", &contact_over, &read_contact_over},
+      {"contact_over", "yes: proven that no contact follows, for this run and those beside it", [](const DescribedRun& run) { return std::string(run.result->contact_over ? "yes" : "may not be"); }, [](const Json& json, DescribedRun& run) { run.result->contact_over = json == "yes"; }},
       {"closest_approach", "after the last sub-impact; null: the gap does nothing but grow", result(&Result::closest_approach), approach_record},
       {"maxima.force_N", "largest contact force", result(&Result::max_force), Form::finite},
       {"maxima.indentation_m", "largest indentation", result(&Result::max_indentation), Form::finite},

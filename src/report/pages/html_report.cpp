@@ -119,12 +119,9 @@ void add_times(std::vector<Answer>& first, const Result& result) {
                    ""});
 }
 
-// Commands and what they are for.
 Json next_steps(const Result& result) {
-  return list_of(result.next_steps, [](const std::string& step) -> Json {
-    const std::size_t at = std::min(step.rfind(" # "), step.size());
-    return {{"command", step.substr(0, at)},
-            {"gain", in_print(step.substr(std::min(at + 3, step.size())))}};
+  return list_of(result.next_steps, [](const NextStep& step) -> Json {
+    return {{"command", step.command}, {"gain", in_print(step.gain)}};
   });
 }
 
