@@ -11,8 +11,8 @@
 #include "model/mesh/cell_mesh.h"
 #include "model/mesh/hermite/hermite_mesh.h"
 #include "model/mesh/rigid_mesh.h"
-#include "model/mesh/spectral_mesh.h"
-#include "model/mesh/timoshenko_mesh.h"
+#include "model/mesh/shear/spectral_mesh.h"
+#include "model/mesh/shear/timoshenko_mesh.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {

@@ -47,6 +47,19 @@ struct ShearCellChain : CellChain {
 std::optional<NaturalModes> shear_cell_modes(const ShearCellChain& chain, bool symmetric_only,
                                              const BandedMatrix& mass);
 
+/// Of two waves whose frequencies squared are closer than `close`, relative to their size, the mode
+/// between them has its shares of both from their difference, and takes what rounding makes of it
+/// from others (make_orthogonal); closer than `apart` it cannot be found.
+constexpr double apart_poles = 1e-11, close_poles = 1e-5;
+
+/// Takes from mode k what it has of the others, all of unit mass.
+void make_orthogonal(NaturalModes& modes, std::size_t k, const BandedMatrix& mass);
+
+/// Gives shapes, the rigid ones first, unit mass, and as frequencies their Rayleigh quotients,
+/// from strains, so that the lowest are accurate in spite of the highest; modes below 1e-7 of the
+/// highest frequency are rigid, the first of them the translation itself where the mesh has one.
+void complete(NaturalModes& modes, const BeamMesh& mesh, double bending_stiffness);
+
 /// A chain of equal Hermite elements (see HermiteMesh).
 struct HermiteChain {
   std::size_t n_elements;    ///< of the whole chain

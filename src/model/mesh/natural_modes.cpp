@@ -3,7 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "subimpact/model/mesh/beam_mesh.h"
+#include "model/mesh/modes.h"
+#include "numerics/lanes.h"
 
 namespace subimpact {
 
@@ -180,6 +181,19 @@ Eigen::MatrixXd decomposed_shapes(const BeamMesh& mesh, double bending_stiffness
 
 }  // namespace
 
+void make_orthogonal(NaturalModes& modes, std::size_t k, const BandedMatrix& mass) {
+  const std::span<double> shape = modes.shape(k);
+  std::vector<double> inertia(shape.size());
+  mass.multiply(shape, inertia);
+  for (std::size_t j = 0; j < modes.size(); ++j) {
+    if (j == k) continue;
+    const double share = dot(inertia.data(), modes.shape(j).data(), shape.size());
+    for (std::size_t i = 0; i < shape.size(); ++i) shape[i] -= share * modes.shape(j)[i];
+  }
+  const double size = std::sqrt(mass.quadratic_form(shape));
+  for (double& value : shape) value /= size;
+}
+
 NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness) {
   NaturalModes modes;
   modes.frequencies.resize(mesh.n_unknowns());
@@ -191,6 +205,12 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
     }
     modes.shapes.assign(shapes.data(), shapes.data() + shapes.size());
   }
+  complete(modes, mesh, bending_stiffness);
+  return modes;
+}
+
+void complete(NaturalModes& modes, const BeamMesh& mesh, double bending_stiffness) {
+  normalise(modes, mesh.mass());
   std::vector<double> kappa(mesh.n_sections());
   for (std::size_t k = 0; k < modes.size(); ++k) {
     mesh.curvatures(modes.shape(k), kappa);
@@ -205,7 +225,6 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
     if (frequency <= rigid) frequency = 0.0;
   }
   free_of_translation(modes, mesh);
-  return modes;
 }
 
 }  // namespace subimpact

@@ -3,7 +3,8 @@
 #include "mesh/mesh_contract.h"
 #include "model/mesh/cell_mesh.h"
 #include "model/mesh/modal_mesh.h"
-#include "model/mesh/timoshenko_mesh.h"
+#include "model/mesh/shear/spectral_mesh.h"
+#include "model/mesh/shear/timoshenko_mesh.h"
 #include "print.h"
 
 namespace subimpact {
@@ -112,6 +113,74 @@ TEST(CellsThatShear, HaveOrthonormalModesWhereTwoWavesHaveOneFrequency) {
     const TimoshenkoMesh mesh(beam, 0.5, 501, TimoshenkoMesh::Extent::half);
     SCOPED_TRACE(apart);
     expect_modes(mesh, beam.bending_stiffness(), 2e-10, 2e-10);
+  }
+}
+
+struct SpectralChain {
+  std::size_t n_elements;
+  SpectralMesh::Extent extent;
+  EndSupport ends = EndSupport::free;
+  double shear_share = 1.0;  // of the published beam's k G
+};
+
+std::ostream& operator<<(std::ostream& out, const SpectralChain& chain) {
+  return out << chain.n_elements
+             << (chain.extent == SpectralMesh::Extent::half ? " half " : " whole ") << chain.ends
+             << ' ' << static_cast<int>(1000.0 * chain.shear_share) << " thousandths of k G";
+}
+
+class ModesOfSpectralElements : public testing::TestWithParam<SpectralChain> {
+ protected:
+  Beam beam() const {
+    Beam beam = paper_beam(BeamTheory::timoshenko);
+    beam.ends = {GetParam().ends, GetParam().ends};
+    beam.poisson = 0.3;
+    beam.shear_coefficient = GetParam().shear_share * 0.85;
+    return beam;
+  }
+  // Of equal elements.
+  SpectralMesh mesh() const {
+    const double position = GetParam().n_elements % 2 == 0 ? 0.5 : 1.0 / 3.0;
+    return {beam(), position, GetParam().n_elements, GetParam().extent};
+  }
+};
+
+TEST_P(ModesOfSpectralElements, FromWavesHaveTheDenseDecompositionsFrequencies) {
+  const SpectralMesh chain = mesh();
+  ASSERT_TRUE(chain.has_closed_modes());
+  const NaturalModes closed = chain.natural_modes(beam().bending_stiffness());
+  const NaturalModes dense = dense_natural_modes(chain, beam().bending_stiffness());
+  EXPECT_EQ(closed.size(), chain.n_unknowns());
+  expect_near(closed.frequencies, dense.frequencies, 0.0, 1e-12);
+}
+
+TEST_P(ModesOfSpectralElements, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
+  expect_modes(mesh(), beam().bending_stiffness(), 5e-12, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , ModesOfSpectralElements,
+    testing::Values(SpectralChain{2, SpectralMesh::Extent::half},
+                    SpectralChain{3, SpectralMesh::Extent::whole},
+                    SpectralChain{2, SpectralMesh::Extent::whole, EndSupport::pinned},
+                    SpectralChain{50, SpectralMesh::Extent::half},
+                    SpectralChain{51, SpectralMesh::Extent::whole},
+                    SpectralChain{50, SpectralMesh::Extent::half, EndSupport::pinned},
+                    SpectralChain{50, SpectralMesh::Extent::whole, EndSupport::pinned},
+                    SpectralChain{50, SpectralMesh::Extent::half, EndSupport::free, 0.01},
+                    SpectralChain{50, SpectralMesh::Extent::whole, EndSupport::free, 50.0},
+                    SpectralChain{200, SpectralMesh::Extent::half}),
+    NamedAsPrinted{});
+
+// As above.
+TEST(SpectralElements, HaveOrthonormalModesWhereTwoWavesHaveOneFrequency) {
+  for (const double apart : {0.0, 1e-12, 1e-10, 1e-8, 1e-6}) {
+    Beam beam = paper_beam(BeamTheory::timoshenko);
+    beam.poisson = 0.3;
+    beam.shear_coefficient = 0.85 * 1.0177107203805 * (1.0 + apart);
+    const SpectralMesh mesh(beam, 0.5, 100, SpectralMesh::Extent::half);
+    SCOPED_TRACE(apart);
+    expect_modes(mesh, beam.bending_stiffness(), 1e-11, 1e-11);
   }
 }
 

@@ -1,9 +1,9 @@
-#include "model/mesh/timoshenko_mesh.h"
+#include "model/mesh/shear/timoshenko_mesh.h"
 
 #include "mesh/mesh_contract.h"
 #include "model/mesh/cell_mesh.h"
 #include "model/mesh/modal_mesh.h"
-#include "model/mesh/spectral_mesh.h"
+#include "model/mesh/shear/spectral_mesh.h"
 
 namespace subimpact {
 namespace {

@@ -5,7 +5,7 @@
 #include "dense.h"
 #include "model/mesh/cell_mesh.h"
 #include "model/mesh/hermite/hermite_mesh.h"
-#include "model/mesh/timoshenko_mesh.h"
+#include "model/mesh/shear/timoshenko_mesh.h"
 #include "order_table.h"
 #include "paper_scene.h"
 

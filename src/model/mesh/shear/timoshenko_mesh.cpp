@@ -1,4 +1,4 @@
-#include "model/mesh/timoshenko_mesh.h"
+#include "model/mesh/shear/timoshenko_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -22,6 +22,10 @@ class SpectralMesh final : public BeamMesh {
   static constexpr std::size_t degree = 4;
   static constexpr std::size_t n_nodes = degree + 1;  // of an element
   static constexpr std::size_t fewest_elements = 2;
+  /// Gauss-Lobatto points and weights on [0, 1].
+  static const std::array<double, n_nodes> nodes;
+  static constexpr std::array<double, n_nodes> node_weights = {
+      1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 1.0 / 20.0};
 
   /// `position` is the struck point as a fraction of the length. Throws std::invalid_argument for
   /// too few elements, for a half model of an odd number of elements, of unlike ends or struck off
@@ -36,6 +40,8 @@ class SpectralMesh final : public BeamMesh {
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
   double highest_frequency(double bending_stiffness) const override;
+  NaturalModes natural_modes(double bending_stiffness) const override;
+  bool has_closed_modes() const override;
   std::string description() const override;
 
  private:
@@ -74,6 +80,7 @@ class SpectralMesh final : public BeamMesh {
   // Lagrange's polynomials at x for the displacements (0) or the rotations r phi (1).
   SparseFunctional interpolated(double x, std::size_t which) const;
 
+  std::array<EndSupport, 2> ends_;
   std::size_t n_elements_;  // of the whole beam
   std::size_t n_before_;    // the strike
   std::vector<Element> elements_;

@@ -1,4 +1,4 @@
-#include "model/mesh/spectral_mesh.h"
+#include "model/mesh/shear/spectral_mesh.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -9,16 +9,16 @@
 #include "numerics/gauss.h"
 
 namespace subimpact {
+
+const std::array<double, SpectralMesh::n_nodes> SpectralMesh::nodes = {
+    0.0, 0.5 - 0.5 * std::sqrt(3.0 / 7.0), 0.5, 0.5 + 0.5 * std::sqrt(3.0 / 7.0), 1.0};
+
 namespace {
 
 constexpr std::size_t n_nodes = SpectralMesh::n_nodes;
 constexpr std::size_t n_points = SpectralMesh::degree;
 
-// Gauss-Lobatto points and weights on [0, 1].
-const std::array<double, n_nodes> nodes = {0.0, 0.5 - 0.5 * std::sqrt(3.0 / 7.0), 0.5,
-                                           0.5 + 0.5 * std::sqrt(3.0 / 7.0), 1.0};
-constexpr std::array<double, n_nodes> node_weights = {1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0,
-                                                      49.0 / 180.0, 1.0 / 20.0};
+constexpr const auto& nodes = SpectralMesh::nodes;
 
 // Lagrange's polynomials of the nodes, and their derivatives, at the Gauss points.
 struct Shapes {
@@ -89,6 +89,7 @@ SpectralMesh::Strains::Strains(double length, double gyration) {
 
 SpectralMesh::SpectralMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent)
     : BeamMesh(count_unknowns(beam, n_elements, extent == Extent::half), 0, extent == Extent::half),
+      ends_(beam.ends),
       n_elements_(n_elements),
       n_before_(elements_before(position, n_elements)),
       gyration_(beam.radius_of_gyration()),

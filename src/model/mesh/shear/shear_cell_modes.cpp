@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "model/mesh/modes.h"
-#include "numerics/bracketed_root.h"
-#include "numerics/lanes.h"
+#include "model/mesh/shear/secular_equation.h"
 
 // A chain whose ends do not turn (phi = 0 at the end faces, no shear force) has waves for modes.
 // A free end is such an end without the section of its end cell, and with the rotary inertia of
@@ -22,15 +21,7 @@ using std::numbers::pi;
 using Complex = std::complex<double>;
 using Array = Eigen::ArrayXd;
 
-// Of poles closer to each other than `close`, relative to their size, the mode between them has its
-// shares of both waves from its neighbours; closer than `apart` it cannot be found.
-constexpr double apart = 1e-11, close = 1e-5;
-
 // Frequencies squared of waves, and their part in the rotation of the first face.
-struct Poles {
-  Array lambda, weight;
-};
-
 Poles poles_of(const ShearCellChain& chain, bool symmetric) {
   struct Pole {
     double lambda, weight;
@@ -60,37 +51,10 @@ Poles poles_of(const ShearCellChain& chain, bool symmetric) {
   const auto size = static_cast<Eigen::Index>(poles.size());
   Poles sorted{Array(size), Array(size)};
   for (Eigen::Index i = 0; i < size; ++i) {
-    sorted.lambda[i] = poles[static_cast<std::size_t>(i)].lambda;
+    sorted.at[i] = poles[static_cast<std::size_t>(i)].lambda;
     sorted.weight[i] = poles[static_cast<std::size_t>(i)].weight;
   }
   return sorted;
-}
-
-// The root below pole i: of sum weight / (pole - lambda) = 1 / (a + b lambda), times the distances
-// to the poles beside it, in which it has no poles. Measured from the nearer of them.
-double root_below(const Poles& poles, Eigen::Index i, double a, double b) {
-  const Eigen::Index n = poles.lambda.size();
-  const bool has_lower = i > 0;
-  const double low = has_lower ? poles.lambda[i - 1] : 0.0;
-  const double low_weight = has_lower ? poles.weight[i - 1] : 0.0;
-  const double gap = poles.lambda[i] - low;
-  const Eigen::Index n_before = has_lower ? i - 1 : 0;
-  const Eigen::Index n_after = n - i - 1;
-  const auto condition = [&](double origin, double from_low, double from_high, double offset) {
-    const auto sum = [&](Eigen::Index first, Eigen::Index count) {
-      return count > 0 ? (poles.weight.segment(first, count) /
-                          (poles.lambda.segment(first, count) - origin - offset))
-                             .sum()
-                       : 0.0;
-    };
-    const double rest = sum(0, n_before) + sum(i + 1, n_after) - 1.0 / (a + b * (origin + offset));
-    const double lower = has_lower ? from_low : 1.0;
-    return rest * lower * from_high - low_weight * from_high + poles.weight[i] * lower;
-  };
-  const auto above = [&](double x) { return condition(low, x, gap - x, x); };
-  const auto below = [&](double x) { return condition(poles.lambda[i], gap - x, x, -x); };
-  if (above(0.5 * gap) > 0.0) return low + root_in(above, 0.0, 0.5 * gap);
-  return poles.lambda[i] - root_in(below, 0.0, 0.5 * gap);
 }
 
 // Every second value from `first` on, up to `end`: the real parts of value, value ratio, value
@@ -161,20 +125,6 @@ void fill_shape(const ShearCellChain& chain, double lambda, bool symmetric,
   add_wave(chain, other, second, symmetric, -1.0, shape);
 }
 
-// Takes from a mode what it has of the others, all of unit mass.
-void make_orthogonal(NaturalModes& modes, std::size_t k, const BandedMatrix& mass) {
-  const std::span<double> shape = modes.shape(k);
-  std::vector<double> inertia(shape.size());
-  mass.multiply(shape, inertia);
-  for (std::size_t j = 0; j < modes.size(); ++j) {
-    if (j == k) continue;
-    const double share = dot(inertia.data(), modes.shape(j).data(), shape.size());
-    for (std::size_t i = 0; i < shape.size(); ++i) shape[i] -= share * modes.shape(j)[i];
-  }
-  const double size = std::sqrt(mass.quadratic_form(shape));
-  for (double& value : shape) value /= size;
-}
-
 }  // namespace
 
 std::optional<NaturalModes> shear_cell_modes(const ShearCellChain& chain, bool symmetric_only,
@@ -182,6 +132,7 @@ std::optional<NaturalModes> shear_cell_modes(const ShearCellChain& chain, bool s
   const double dx = chain.spacing;
   const double a = chain.bending_stiffness / dx;
   const double b = 0.5 * chain.rotary_inertia * dx;
+  const auto right = [&](double lambda) { return 1.0 / (a + b * lambda); };
   struct Root {
     double lambda;
     bool symmetric, is_between_close_poles;
@@ -191,10 +142,10 @@ std::optional<NaturalModes> shear_cell_modes(const ShearCellChain& chain, bool s
     if (!symmetric && symmetric_only) break;
     const Poles poles = poles_of(chain, symmetric);
     // The first antisymmetric root is the rigid rotation's.
-    for (Eigen::Index i = symmetric ? 0 : 1; i < poles.lambda.size(); ++i) {
-      const double gap = i > 0 ? 1.0 - poles.lambda[i - 1] / poles.lambda[i] : 1.0;
-      if (!(gap > apart)) return std::nullopt;
-      roots.push_back({root_below(poles, i, a, b), symmetric, gap < close});
+    for (Eigen::Index i = symmetric ? 0 : 1; i < poles.at.size(); ++i) {
+      const double gap = i > 0 ? 1.0 - poles.at[i - 1] / poles.at[i] : 1.0;
+      if (!(gap > apart_poles)) return std::nullopt;
+      roots.push_back({root_below(poles, i, right).value(), symmetric, gap < close_poles});
     }
   }
   std::ranges::sort(roots, {}, &Root::lambda);
