@@ -3,7 +3,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "model/mesh/modes.h"
@@ -39,17 +40,19 @@ struct Chain {
   bool pinned;
   Strains strains;  // of an element: their product with themselves is its stiffness matrix
   Values masses;    // of an element, kg
-  std::vector<std::array<Eigen::Index, n_values>> unknowns;  // of elements kept; -1: held
-  std::vector<Eigen::Index> end_rotations;                   // unknowns of free ends
-  Vector mass, translation;                                  // of all unknowns
+  // Of each element kept without its last node, and of the last node of all; -1: held, or the
+  // rotation of a free end.
+  std::vector<std::array<Eigen::Index, n_own>> unknowns;
+  std::vector<Eigen::Index> end_rotations;  // of free ends, the first one first
+  Vector mass, translation;                 // of all unknowns
 };
 
-// Element e has the values cos(e theta) even - sin(e theta) odd where ends do not turn, where they
-// are pinned sin(e theta) even + cos(e theta) odd; theta = pi k / n.
+// Of unit mass. Element e has the values cos(theta e) even - sin(theta e) odd, theta = pi k / n;
+// where ends are pinned, sin(theta e) even + cos(theta e) odd.
 struct Wave {
   double square;  // omega^2
   std::size_t k;
-  Values even, odd;
+  Own even, odd;
 };
 
 // Values of an element from eight numbers whose real part is alike on both sides of the first node:
@@ -74,11 +77,12 @@ Eigen::Matrix<Complex, n_values, n_own> field_of(double theta) {
 }
 
 void add_waves(const Chain& chain, std::size_t k, std::vector<Wave>& waves) {
-  const auto field = field_of(pi * static_cast<double>(k) / static_cast<double>(chain.n_elements));
+  const auto n = static_cast<double>(chain.n_elements);
+  const auto field = field_of(pi * static_cast<double>(k) / n);
   const auto& m = chain.masses;
-  Own scale;
-  scale << m(0) + m(8), m(1) + m(9), m(2), m(2), m(3), m(3), m(4), m(5);
-  scale = scale.cwiseSqrt().cwiseInverse();
+  Own inertia;
+  inertia << m(0) + m(8), m(1) + m(9), m(2), m(2), m(3), m(3), m(4), m(5);
+  const Own scale = inertia.cwiseSqrt().cwiseInverse();
   const Eigen::Matrix<double, n_values, n_own> even = field.real() * scale.asDiagonal();
   const Eigen::Matrix<double, n_values, n_own> odd = field.imag() * scale.asDiagonal();
   const Eigen::Matrix<double, n_own, n_own> of_even = chain.strains * even;
@@ -88,11 +92,12 @@ void add_waves(const Chain& chain, std::size_t k, std::vector<Wave>& waves) {
   for (int j = 0; j < n_own; ++j) {
     const Own y = solver.eigenvectors().col(j);
     const double square = (of_even * y).squaredNorm() + (of_odd * y).squaredNorm();
-    const Wave wave{square, k, even * y, odd * y};
     // At wave numbers 0 and pi one half of them vanishes in the chain.
-    const Values& seen = chain.pinned ? wave.odd : wave.even;
-    const bool is_seen = chain.masses.dot(seen.cwiseAbs2()) > 0.5;
-    if ((k > 0 && k < chain.n_elements) || is_seen) waves.push_back(wave);
+    const bool is_standing = k == 0 || k == chain.n_elements;
+    const Values seen = (chain.pinned ? odd : even) * y;
+    if (is_standing && chain.masses.dot(seen.cwiseAbs2()) < 0.5) continue;
+    const double size = std::sqrt((is_standing ? 1.0 : 2.0) / n);
+    waves.push_back({square, k, size * (even * y).head<n_own>(), size * (odd * y).head<n_own>()});
   }
 }
 
@@ -104,44 +109,12 @@ std::vector<Wave> waves_of(const Chain& chain, std::size_t first) {
   return waves;
 }
 
-// A column each, of unit mass.
-Matrix shapes_of(const Chain& chain, const std::vector<Wave>& waves) {
-  const std::size_t n = chain.n_elements;
-  std::vector<Complex> turns;
-  for (std::size_t i = 0; i < 2 * n; ++i) {
-    turns.push_back(std::polar(1.0, pi * static_cast<double>(i) / static_cast<double>(n)));
-  }
-  const Complex phase = chain.pinned ? Complex(0.0, -1.0) : 1.0;
-  Matrix shapes(chain.mass.size(), index(waves.size()));
-  for (std::size_t j = 0; j < waves.size(); ++j) {
-    auto shape = shapes.col(index(j));
-    const Wave& wave = waves[j];
-    for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
-      const Complex turn = phase * turns[wave.k * e % (2 * n)];
-      const Values values = turn.real() * wave.even - turn.imag() * wave.odd;
-      for (std::size_t i = 0; i < n_values; ++i) {
-        const Eigen::Index unknown = chain.unknowns[e][i];
-        if (unknown >= 0) shape(unknown) = values(index(i));
-      }
-    }
-    for (const Eigen::Index end : chain.end_rotations) shape(end) = 0.0;
-    shape /= std::sqrt(chain.mass.dot(shape.cwiseAbs2()));
-  }
-  return shapes;
-}
-
-struct Mode {
-  double square;  // omega^2
-  Vector shape;
-  bool is_between_close_poles = false;
-};
-
 // The field of a free chain that turns its ends: a uniform curvature of 1/m without shear and
 // without momentum, or a rigid rotation about mid-span.
 Vector released_field(const Chain& chain, bool bent) {
   Vector field(chain.mass.size());
   for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
-    for (std::size_t i = 0; i < n_values; ++i) {
+    for (std::size_t i = 0; i < n_own; ++i) {
       const double x = chain.length * (static_cast<double>(e) + SpectralMesh::nodes[i / 2] -
                                        0.5 * static_cast<double>(chain.n_elements));
       const double displacement = bent ? 0.5 * x * x : x;
@@ -150,68 +123,155 @@ Vector released_field(const Chain& chain, bool bent) {
       if (unknown >= 0) field(unknown) = i % 2 == 0 ? displacement : rotation;
     }
   }
+  for (const Eigen::Index end : chain.end_rotations) {
+    const double half = 0.5 * chain.length * static_cast<double>(chain.n_elements);
+    const double x = end == chain.end_rotations.front() ? -half : half;
+    field(end) = chain.gyration * (bent ? x : 1.0);
+  }
   if (!bent) return field;
   const Vector momentum = chain.mass.cwiseProduct(chain.translation);
   return field - momentum.dot(field) / momentum.dot(chain.translation) * chain.translation;
 }
 
-// Of one parity of a free chain. `released`: the field that turns the ends; `stiffness`: twice its
-// energy.
-// False if two poles are too close.
-bool add_free_modes(const Chain& chain, bool even, double bending_stiffness,
-                    std::vector<Mode>& modes) {
-  const std::vector<Wave> waves = waves_of(chain, even ? 0 : 1);
-  const Matrix shapes = shapes_of(chain, waves);
-  const Vector released = released_field(chain, even);
-  const Vector inertia = shapes.transpose() * chain.mass.cwiseProduct(released);
-  Poles poles{Vector(waves.size()), {}};
+// Modes that are alike on both sides of mid-span, or opposite.
+struct Family {
+  bool even;
+  std::vector<Wave> waves;
+  Matrix turns;  // rows 2 (k / 2) and the next: factors of even and odd, by elements
+  // Of free ends: the field that turns them, and its products of inertia with the waves.
+  Vector released, inertia;
+  Poles poles;
+};
+
+Matrix turns_of(const Chain& chain, std::size_t first) {
+  const std::size_t n = chain.n_elements;
+  Matrix turns = Matrix::Zero(2 * index(n / 2 + 1), index(chain.unknowns.size()));
+  for (std::size_t k = first; k <= n; k += 2) {
+    for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
+      const double angle = pi * static_cast<double>(k * e % (2 * n)) / static_cast<double>(n);
+      const double c = std::cos(angle), s = std::sin(angle);
+      turns.col(index(e)).segment<2>(2 * index(k / 2)) << (chain.pinned ? s : c),
+          (chain.pinned ? c : -s);
+    }
+  }
+  return turns;
+}
+
+Family family_of(const Chain& chain, bool even, double bending_stiffness) {
+  const std::size_t first = even == chain.pinned ? 1 : 0;
+  Family family{even, waves_of(chain, first), turns_of(chain, first), {}, {}, {}};
+  const std::vector<Wave>& waves = family.waves;
+  Poles& poles = family.poles;
+  poles.at.resize(index(waves.size()));
   for (std::size_t i = 0; i < waves.size(); ++i) poles.at(index(i)) = waves[i].square;
-  poles.weight = inertia.array().square() * poles.at;
-  if (even) {  // the first wave is the rigid translation, whose pole that of a curvature is
+  if (chain.pinned) return family;
+  family.released = released_field(chain, even);
+  const Vector momentum = chain.mass.cwiseProduct(family.released);
+  Matrix by_elements = Matrix::Zero(n_own, index(chain.unknowns.size()));
+  for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
+    for (std::size_t i = 0; i < n_own; ++i) {
+      const Eigen::Index unknown = chain.unknowns[e][i];
+      if (unknown >= 0) by_elements(index(i), index(e)) = momentum(unknown);
+    }
+  }
+  const Matrix by_waves = by_elements * family.turns.transpose();
+  family.inertia.resize(poles.size());
+  for (std::size_t i = 0; i < waves.size(); ++i) {
+    const Eigen::Index k = 2 * index(waves[i].k / 2);
+    family.inertia(index(i)) =
+        waves[i].even.dot(by_waves.col(k)) + waves[i].odd.dot(by_waves.col(k + 1));
+  }
+  poles.weight = family.inertia.array().square() * poles.at;
+  if (even) {  // the first wave is the rigid translation: a curvature's pole is at its place
     poles.at(0) = 0.0;
     poles.weight(0) = bending_stiffness * chain.length * static_cast<double>(chain.n_elements);
   }
-  modes.push_back({0.0, even ? chain.translation : released});
+  return family;
+}
+
+struct Mode {
+  const Family* family = nullptr;
+  SecularRoot square;  // omega^2
+  bool is_rigid = false, is_between_close_poles = false;
+};
+
+// False if two poles are too close.
+bool add_modes(const Chain& chain, const Family& family, std::vector<Mode>& modes) {
+  const Poles& poles = family.poles;
+  if (chain.pinned) {
+    for (const double square : poles.at) modes.push_back({&family, {square, 0.0}});
+    return true;
+  }
+  modes.push_back({&family, {0.0, 0.0}, true});
   double at_ends = 0.0;
   for (const Eigen::Index end : chain.end_rotations) {
-    at_ends += chain.mass(end) * released(end) * released(end);
+    at_ends += chain.mass(end) * family.released(end) * family.released(end);
   }
-  const auto right = [&](double) { return -at_ends; };
-  Matrix shares(poles.size(), poles.size());
-  Vector turns = Vector::Ones(poles.size());  // of the ends
-  const std::size_t first = modes.size();
-  for (Eigen::Index i = 1; i <= poles.size(); ++i) {
-    const bool is_last = i == poles.size();
-    const double gap = is_last ? 1.0 : 1.0 - poles.at(i - 1) / poles.at(i);
+  for (Eigen::Index i = 1; i < poles.size(); ++i) {
+    const double gap = 1.0 - poles.at(i - 1) / poles.at(i);
     if (!(gap > apart_poles)) return false;
-    const SecularRoot root = is_last ? root_above(poles, -at_ends) : root_below(poles, i, right);
-    const Eigen::ArrayXd distances = root.distances(poles);
-    if ((distances == 0.0).any()) {  // a wave that does not turn the ends
-      shares.col(i - 1) = (distances == 0.0).cast<double>();
-      turns(i - 1) = 0.0;
-    } else {
-      shares.col(i - 1) = inertia.array() * poles.at / distances;
-    }
-    modes.push_back({root.value(), {}, gap < close_poles});
+    const SecularRoot root = root_below(poles, i, [&](double) { return -at_ends; });
+    modes.push_back({&family, root, false, gap < close_poles});
   }
-  Matrix found = shapes * shares;
-  for (const Eigen::Index end : chain.end_rotations) {
-    found.row(end) = released(end) * turns.transpose();
-  }
-  for (Eigen::Index i = 0; i < found.cols(); ++i) {
-    modes[first + static_cast<std::size_t>(i)].shape = found.col(i);
-  }
+  modes.push_back({&family, root_above(poles, -at_ends)});
   return true;
 }
 
-bool add_modes(const Chain& chain, bool even, double bending_stiffness, std::vector<Mode>& modes) {
-  if (!chain.pinned) return add_free_modes(chain, even, bending_stiffness, modes);
-  const std::vector<Wave> waves = waves_of(chain, even ? 1 : 0);
-  const Matrix shapes = shapes_of(chain, waves);
-  for (std::size_t i = 0; i < waves.size(); ++i) {
-    modes.push_back({waves[i].square, shapes.col(index(i))});
+// Writes the shapes of a few modes of one family.
+void write_shapes(const Chain& chain, const Family& family, const std::vector<Mode>& modes,
+                  std::span<const std::size_t> numbers, Eigen::Map<Matrix> shapes) {
+  Matrix waves = Matrix::Zero(n_own * index(numbers.size()), family.turns.rows());
+  for (std::size_t m = 0; m < numbers.size(); ++m) {
+    const Eigen::ArrayXd distances = modes[numbers[m]].square.distances(family.poles);
+    const bool is_wave = (distances == 0.0).any();  // which does not turn the ends
+    for (std::size_t i = 0; i < family.waves.size(); ++i) {
+      const Wave& wave = family.waves[i];
+      const Eigen::Index j = index(i), k = 2 * index(wave.k / 2);
+      if (is_wave && distances(j) != 0.0) continue;
+      const double share = is_wave ? 1.0 : family.inertia(j) * family.poles.at(j) / distances(j);
+      waves.col(k).segment<n_own>(n_own * index(m)) += share * wave.even;
+      waves.col(k + 1).segment<n_own>(n_own * index(m)) += share * wave.odd;
+    }
+    for (const Eigen::Index end : chain.end_rotations) {
+      shapes(end, index(numbers[m])) = is_wave ? 0.0 : family.released(end);
+    }
   }
-  return true;
+  const Matrix values = waves * family.turns;
+  for (std::size_t m = 0; m < numbers.size(); ++m) {
+    for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
+      for (std::size_t i = 0; i < n_own; ++i) {
+        const Eigen::Index unknown = chain.unknowns[e][i];
+        if (unknown < 0) continue;
+        shapes(unknown, index(numbers[m])) = values(n_own * index(m) + index(i), index(e));
+      }
+    }
+  }
+}
+
+// Without frequencies.
+NaturalModes written(const Chain& chain, const std::vector<Family>& families,
+                     const std::vector<Mode>& modes) {
+  constexpr std::size_t block = 64;  // stays in the cache
+  const std::size_t n = modes.size();
+  NaturalModes result{std::vector<double>(n), std::vector<double>(n * n)};
+  Eigen::Map<Matrix> shapes(result.shapes.data(), index(n), index(n));
+  for (const Family& family : families) {
+    std::vector<std::size_t> numbers;
+    if (!chain.pinned) {  // the rigid modes come first
+      const Vector& rigid = family.even ? chain.translation : family.released;
+      shapes.col(family.even ? 0 : 1) = rigid;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (modes[i].family != &family) continue;
+      if (!modes[i].is_rigid) numbers.push_back(i);
+    }
+    for (std::size_t first = 0; first < numbers.size(); first += block) {
+      write_shapes(chain, family, modes,
+                   std::span(numbers).subspan(first, std::min(block, numbers.size() - first)),
+                   shapes);
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -240,30 +300,30 @@ NaturalModes SpectralMesh::natural_modes(double bending_stiffness) const {
   for (std::size_t i = 0; i < n_values; ++i) {
     chain.masses(index(i)) = mass_per_length_ * chain.length * node_weights[i / 2];
   }
-  for (const Element& element : elements_) {
-    std::ranges::transform(element.unknowns, chain.unknowns.emplace_back().begin(), index);
-  }
+  const auto own = [](const auto& unknowns, std::size_t first) {
+    std::array<Eigen::Index, n_own> indices;
+    for (std::size_t i = 0; i < n_own; ++i) {
+      indices[i] = first + i < n_values ? index(unknowns[first + i]) : -1;
+    }
+    return indices;
+  };
+  for (const Element& element : elements_) chain.unknowns.push_back(own(element.unknowns, 0));
+  chain.unknowns.push_back(own(elements_.back().unknowns, n_own));
   chain.mass.resize(index(n_unknowns()));
   for (std::size_t i = 0; i < n_unknowns(); ++i) chain.mass(index(i)) = mass_.at(i, i);
   if (!chain.pinned) {
     chain.translation = Vector::Map(translation().data(), index(n_unknowns()));
-    chain.end_rotations = {chain.unknowns.front()[1]};
-    if (!symmetric()) chain.end_rotations.push_back(chain.unknowns.back().back());
+    chain.end_rotations = {std::exchange(chain.unknowns.front()[1], -1)};
+    if (!symmetric()) chain.end_rotations.push_back(std::exchange(chain.unknowns.back()[1], -1));
   }
-
+  std::vector<Family> families = {family_of(chain, true, bending_stiffness)};
+  if (!symmetric()) families.push_back(family_of(chain, false, bending_stiffness));
   std::vector<Mode> found;
-  for (const bool even : {true, false}) {
-    if (!even && symmetric()) break;
-    if (!add_modes(chain, even, bending_stiffness, found)) {
-      return dense_natural_modes(*this, bending_stiffness);
-    }
+  for (const Family& family : families) {
+    if (!add_modes(chain, family, found)) return dense_natural_modes(*this, bending_stiffness);
   }
-  std::ranges::stable_sort(found, {}, &Mode::square);
-  NaturalModes modes;
-  modes.frequencies.resize(found.size());
-  for (const Mode& mode : found) {
-    modes.shapes.insert(modes.shapes.end(), mode.shape.begin(), mode.shape.end());
-  }
+  std::ranges::stable_sort(found, {}, [](const Mode& mode) { return mode.square.value(); });
+  NaturalModes modes = written(chain, families, found);
   complete(modes, *this, bending_stiffness);
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (found[k].is_between_close_poles) make_orthogonal(modes, k, mass());
