@@ -6,7 +6,7 @@
 
 namespace subimpact {
 
-/// Poles, ascending, and their weights, none negative: of sum weight / (pole - x).
+/// Poles, ascending, and their weights, all positive: of sum weight / (pole - x).
 struct Poles {
   Eigen::ArrayXd at, weight;
 
@@ -35,10 +35,9 @@ SecularRoot root_below(const Poles& poles, Eigen::Index i, Right right) {
   const Eigen::Index n_after = n - i - 1;
   const auto condition = [&](double origin, double from_low, double from_high, double offset) {
     const auto sum = [&](Eigen::Index first, Eigen::Index count) {
-      return count > 0 ? (poles.weight.segment(first, count) /
-                          (poles.at.segment(first, count) - origin - offset))
-                             .sum()
-                       : 0.0;
+      return (poles.weight.segment(first, count) /
+              (poles.at.segment(first, count) - origin - offset))
+          .sum();
     };
     const double rest = sum(0, n_before) + sum(i + 1, n_after) - right(origin + offset);
     const double lower = has_lower ? from_low : 1.0;
@@ -58,7 +57,7 @@ inline SecularRoot root_above(const Poles& poles, double right) {
     const double rest = (poles.weight.head(n) / (poles.at.head(n) - last - x)).sum();
     return (rest - right) * x - poles.weight[n];
   };
-  return {last, root_in(condition, 0.0, -poles.weight.sum() / right)};
+  return {last, root_in(condition, 0.0, -2.0 * poles.weight.sum() / right)};
 }
 
 }  // namespace subimpact

@@ -1,8 +1,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,8 +27,9 @@ using std::numbers::pi;
 using Complex = std::complex<double>;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
+using Array = Eigen::ArrayXd;
 constexpr int n_values = 2 * static_cast<int>(SpectralMesh::n_nodes);  // that an element reads
-constexpr int n_own = n_values - 2;  // of them, without those of the node that the next one has too
+constexpr int n_own = n_values - 2;  // of its first four nodes: the next element has the fifth
 using Values = Eigen::Matrix<double, n_values, 1>;
 using Strains = Eigen::Matrix<double, n_own, n_values>;
 using Own = Eigen::Matrix<double, n_own, 1>;
@@ -43,20 +46,22 @@ struct Chain {
   // Of each element kept without its last node, and of the last node of all; -1: held, or the
   // rotation of a free end.
   std::vector<std::array<Eigen::Index, n_own>> unknowns;
-  std::vector<Eigen::Index> end_rotations;  // of free ends, the first one first
+  std::vector<Eigen::Index> end_rotations;  // of free ends
   Vector mass, translation;                 // of all unknowns
+  Array from_middle;                        // x less that of mid-span, m
 };
 
-// Of unit mass. Element e has the values cos(theta e) even - sin(theta e) odd, theta = pi k / n;
-// where ends are pinned, sin(theta e) even + cos(theta e) odd.
+// Of unit mass in the whole chain. Element e has the values cos(theta e) even - sin(theta e) odd,
+// theta = pi k / n; where ends are pinned, sin(theta e) even + cos(theta e) odd.
 struct Wave {
   double square;  // omega^2
   std::size_t k;
   Own even, odd;
 };
 
-// Values of an element from eight numbers whose real part is alike on both sides of the first node:
-// there and at mid-element displacements are real, rotations imaginary, but for the phase.
+// Values of an element from eight numbers. The real part is symmetric about the first node, with
+// rotations antisymmetric, the imaginary part the other way round: there and at mid-element
+// displacements are real, rotations imaginary, but for the phase.
 Eigen::Matrix<Complex, n_values, n_own> field_of(double theta) {
   constexpr Complex i(0.0, 1.0);
   const double half = std::sqrt(0.5);
@@ -92,11 +97,12 @@ void add_waves(const Chain& chain, std::size_t k, std::vector<Wave>& waves) {
   for (int j = 0; j < n_own; ++j) {
     const Own y = solver.eigenvectors().col(j);
     const double square = (of_even * y).squaredNorm() + (of_odd * y).squaredNorm();
-    // At wave numbers 0 and pi one half of them vanishes in the chain.
+    // At theta = 0 and pi one half of them is zero in the chain, being of the other ends.
     const bool is_standing = k == 0 || k == chain.n_elements;
-    const Values seen = (chain.pinned ? odd : even) * y;
-    if (is_standing && chain.masses.dot(seen.cwiseAbs2()) < 0.5) continue;
-    const double size = std::sqrt((is_standing ? 1.0 : 2.0) / n);
+    const Values part = (chain.pinned ? odd : even) * y;
+    const double mass = is_standing ? chain.masses.dot(part.cwiseAbs2()) : 0.5;
+    if (mass < 0.5) continue;
+    const double size = 1.0 / std::sqrt(n * mass);
     waves.push_back({square, k, size * (even * y).head<n_own>(), size * (odd * y).head<n_own>()});
   }
 }
@@ -112,54 +118,50 @@ std::vector<Wave> waves_of(const Chain& chain, std::size_t first) {
 // The field of a free chain that turns its ends: a uniform curvature of 1/m without shear and
 // without momentum, or a rigid rotation about mid-span.
 Vector released_field(const Chain& chain, bool bent) {
-  Vector field(chain.mass.size());
-  for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
-    for (std::size_t i = 0; i < n_own; ++i) {
-      const double x = chain.length * (static_cast<double>(e) + SpectralMesh::nodes[i / 2] -
-                                       0.5 * static_cast<double>(chain.n_elements));
-      const double displacement = bent ? 0.5 * x * x : x;
-      const double rotation = chain.gyration * (bent ? x : 1.0);
-      const Eigen::Index unknown = chain.unknowns[e][i];
-      if (unknown >= 0) field(unknown) = i % 2 == 0 ? displacement : rotation;
-    }
-  }
-  for (const Eigen::Index end : chain.end_rotations) {
-    const double half = 0.5 * chain.length * static_cast<double>(chain.n_elements);
-    const double x = end == chain.end_rotations.front() ? -half : half;
-    field(end) = chain.gyration * (bent ? x : 1.0);
-  }
-  if (!bent) return field;
+  const Array& x = chain.from_middle;
+  const Array moves = chain.translation.array(), turns = chain.gyration * (1.0 - moves);
+  if (!bent) return moves * x + turns;
+  const Vector field = moves * x.square() / 2.0 + turns * x;
   const Vector momentum = chain.mass.cwiseProduct(chain.translation);
   return field - momentum.dot(field) / momentum.dot(chain.translation) * chain.translation;
+}
+
+template <class Function>
+void for_each_unknown(const Chain& chain, Function function) {
+  for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
+    for (std::size_t i = 0; i < n_own; ++i) {
+      if (chain.unknowns[e][i] >= 0) function(index(e), index(i), chain.unknowns[e][i]);
+    }
+  }
 }
 
 // Modes that are alike on both sides of mid-span, or opposite.
 struct Family {
   bool even;
   std::vector<Wave> waves;
-  Matrix turns;  // rows 2 (k / 2) and the next: factors of even and odd, by elements
+  Matrix phases;  // by elements; rows 2 floor(k/2) and the next: factors of even and odd
   // Of free ends: the field that turns them, and its products of inertia with the waves.
   Vector released, inertia;
   Poles poles;
 };
 
-Matrix turns_of(const Chain& chain, std::size_t first) {
+Matrix phases_of(const Chain& chain, std::size_t first) {
   const std::size_t n = chain.n_elements;
-  Matrix turns = Matrix::Zero(2 * index(n / 2 + 1), index(chain.unknowns.size()));
+  Matrix phases = Matrix::Zero(2 * index(n / 2 + 1), index(chain.unknowns.size()));
   for (std::size_t k = first; k <= n; k += 2) {
     for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
       const double angle = pi * static_cast<double>(k * e % (2 * n)) / static_cast<double>(n);
       const double c = std::cos(angle), s = std::sin(angle);
-      turns.col(index(e)).segment<2>(2 * index(k / 2)) << (chain.pinned ? s : c),
+      phases.col(index(e)).segment<2>(2 * index(k / 2)) << (chain.pinned ? s : c),
           (chain.pinned ? c : -s);
     }
   }
-  return turns;
+  return phases;
 }
 
 Family family_of(const Chain& chain, bool even, double bending_stiffness) {
   const std::size_t first = even == chain.pinned ? 1 : 0;
-  Family family{even, waves_of(chain, first), turns_of(chain, first), {}, {}, {}};
+  Family family{even, waves_of(chain, first), phases_of(chain, first), {}, {}, {}};
   const std::vector<Wave>& waves = family.waves;
   Poles& poles = family.poles;
   poles.at.resize(index(waves.size()));
@@ -168,13 +170,10 @@ Family family_of(const Chain& chain, bool even, double bending_stiffness) {
   family.released = released_field(chain, even);
   const Vector momentum = chain.mass.cwiseProduct(family.released);
   Matrix by_elements = Matrix::Zero(n_own, index(chain.unknowns.size()));
-  for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
-    for (std::size_t i = 0; i < n_own; ++i) {
-      const Eigen::Index unknown = chain.unknowns[e][i];
-      if (unknown >= 0) by_elements(index(i), index(e)) = momentum(unknown);
-    }
-  }
-  const Matrix by_waves = by_elements * family.turns.transpose();
+  for_each_unknown(chain, [&](Eigen::Index e, Eigen::Index i, Eigen::Index unknown) {
+    by_elements(i, e) = momentum(unknown);
+  });
+  const Matrix by_waves = by_elements * family.phases.transpose();
   family.inertia.resize(poles.size());
   for (std::size_t i = 0; i < waves.size(); ++i) {
     const Eigen::Index k = 2 * index(waves[i].k / 2);
@@ -193,15 +192,19 @@ struct Mode {
   const Family* family = nullptr;
   SecularRoot square;  // omega^2
   bool is_rigid = false, is_between_close_poles = false;
+  Eigen::Index wave = -1;  // that it is, where ends are pinned
 };
 
-// False if two poles are too close.
+// False if two poles are too close, or a wave is not coupled to the field that turns the ends.
 bool add_modes(const Chain& chain, const Family& family, std::vector<Mode>& modes) {
   const Poles& poles = family.poles;
   if (chain.pinned) {
-    for (const double square : poles.at) modes.push_back({&family, {square, 0.0}});
+    for (Eigen::Index i = 0; i < poles.size(); ++i) {
+      modes.push_back({&family, {poles.at(i), 0.0}, false, false, i});
+    }
     return true;
   }
+  if (!(poles.weight > 0.0).all()) return false;
   modes.push_back({&family, {0.0, 0.0}, true});
   double at_ends = 0.0;
   for (const Eigen::Index end : chain.end_rotations) {
@@ -220,58 +223,63 @@ bool add_modes(const Chain& chain, const Family& family, std::vector<Mode>& mode
 // Writes the shapes of a few modes of one family.
 void write_shapes(const Chain& chain, const Family& family, const std::vector<Mode>& modes,
                   std::span<const std::size_t> numbers, Eigen::Map<Matrix> shapes) {
-  Matrix waves = Matrix::Zero(n_own * index(numbers.size()), family.turns.rows());
+  const Poles& poles = family.poles;
+  Matrix waves = Matrix::Zero(n_own * index(numbers.size()), family.phases.rows());
   for (std::size_t m = 0; m < numbers.size(); ++m) {
-    const Eigen::ArrayXd distances = modes[numbers[m]].square.distances(family.poles);
-    const bool is_wave = (distances == 0.0).any();  // which does not turn the ends
+    const Mode& mode = modes[numbers[m]];
+    const Vector shares =
+        mode.wave < 0 ? Vector(family.inertia.array() * poles.at / mode.square.distances(poles))
+                      : Vector(Vector::Unit(poles.size(), mode.wave));
     for (std::size_t i = 0; i < family.waves.size(); ++i) {
       const Wave& wave = family.waves[i];
-      const Eigen::Index j = index(i), k = 2 * index(wave.k / 2);
-      if (is_wave && distances(j) != 0.0) continue;
-      const double share = is_wave ? 1.0 : family.inertia(j) * family.poles.at(j) / distances(j);
-      waves.col(k).segment<n_own>(n_own * index(m)) += share * wave.even;
-      waves.col(k + 1).segment<n_own>(n_own * index(m)) += share * wave.odd;
+      const Eigen::Index k = 2 * index(wave.k / 2);
+      waves.col(k).segment<n_own>(n_own * index(m)) += shares(index(i)) * wave.even;
+      waves.col(k + 1).segment<n_own>(n_own * index(m)) += shares(index(i)) * wave.odd;
     }
     for (const Eigen::Index end : chain.end_rotations) {
-      shapes(end, index(numbers[m])) = is_wave ? 0.0 : family.released(end);
+      shapes(end, index(numbers[m])) = family.released(end);
     }
   }
-  const Matrix values = waves * family.turns;
+  const Matrix values = waves * family.phases;
   for (std::size_t m = 0; m < numbers.size(); ++m) {
-    for (std::size_t e = 0; e < chain.unknowns.size(); ++e) {
-      for (std::size_t i = 0; i < n_own; ++i) {
-        const Eigen::Index unknown = chain.unknowns[e][i];
-        if (unknown < 0) continue;
-        shapes(unknown, index(numbers[m])) = values(n_own * index(m) + index(i), index(e));
-      }
-    }
+    for_each_unknown(chain, [&](Eigen::Index e, Eigen::Index i, Eigen::Index unknown) {
+      shapes(unknown, index(numbers[m])) = values(n_own * index(m) + i, e);
+    });
   }
 }
 
-// Without frequencies.
-NaturalModes written(const Chain& chain, const std::vector<Family>& families,
-                     const std::vector<Mode>& modes) {
+// Orthonormal, without frequencies.
+std::optional<NaturalModes> modes_of(const Chain& chain, bool half, double bending_stiffness,
+                                     const BandedMatrix& mass) {
   constexpr std::size_t block = 64;  // stays in the cache
-  const std::size_t n = modes.size();
-  NaturalModes result{std::vector<double>(n), std::vector<double>(n * n)};
-  Eigen::Map<Matrix> shapes(result.shapes.data(), index(n), index(n));
+  std::vector<Family> families = {family_of(chain, true, bending_stiffness)};
+  if (!half) families.push_back(family_of(chain, false, bending_stiffness));
+  std::vector<Mode> modes;
   for (const Family& family : families) {
-    std::vector<std::size_t> numbers;
+    if (!add_modes(chain, family, modes)) return std::nullopt;
+  }
+  std::ranges::stable_sort(modes, {}, [](const Mode& mode) { return mode.square.value(); });
+  const std::size_t n = modes.size();
+  NaturalModes found{std::vector<double>(n), std::vector<double>(n * n)};
+  Eigen::Map<Matrix> shapes(found.shapes.data(), index(n), index(n));
+  for (const Family& family : families) {
     if (!chain.pinned) {  // the rigid modes come first
-      const Vector& rigid = family.even ? chain.translation : family.released;
-      shapes.col(family.even ? 0 : 1) = rigid;
+      shapes.col(family.even ? 0 : 1) = family.even ? chain.translation : family.released;
     }
+    std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < n; ++i) {
-      if (modes[i].family != &family) continue;
-      if (!modes[i].is_rigid) numbers.push_back(i);
+      if (modes[i].family == &family && !modes[i].is_rigid) numbers.push_back(i);
     }
     for (std::size_t first = 0; first < numbers.size(); first += block) {
-      write_shapes(chain, family, modes,
-                   std::span(numbers).subspan(first, std::min(block, numbers.size() - first)),
-                   shapes);
+      const std::size_t count = std::min(block, numbers.size() - first);
+      write_shapes(chain, family, modes, std::span(numbers).subspan(first, count), shapes);
     }
   }
-  return result;
+  normalise(found, mass);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (modes[k].is_between_close_poles) make_orthogonal(found, k, mass);
+  }
+  return found;
 }
 
 }  // namespace
@@ -294,41 +302,39 @@ NaturalModes SpectralMesh::natural_modes(double bending_stiffness) const {
     const double stiffness = q < of_bending ? shear_stiffness_per_length_ : bending_stiffness;
     for (std::size_t i = 0; i < n_values; ++i) {
       chain.strains(index(q), index(i)) =
-          std::sqrt(stiffness * weight) * strains_.front().rows[q][i];
+          std::sqrt(stiffness * weight) * strains_[elements_.front().side].rows[q][i];
     }
   }
   for (std::size_t i = 0; i < n_values; ++i) {
     chain.masses(index(i)) = mass_per_length_ * chain.length * node_weights[i / 2];
   }
-  const auto own = [](const auto& unknowns, std::size_t first) {
-    std::array<Eigen::Index, n_own> indices;
+  const std::size_t n_kept = elements_.size();
+  chain.unknowns.resize(n_kept + 1);
+  chain.mass = chain.translation = Vector::Zero(index(n_unknowns()));
+  chain.from_middle = chain.mass;
+  for (std::size_t e = 0; e <= n_kept; ++e) {
     for (std::size_t i = 0; i < n_own; ++i) {
-      indices[i] = first + i < n_values ? index(unknowns[first + i]) : -1;
+      const bool is_last = e == n_kept;
+      const std::size_t unknown = !is_last ? elements_[e].unknowns[i]
+                                  : i < 2  ? elements_.back().unknowns[n_own + i]
+                                           : held;
+      chain.unknowns[e][i] = index(unknown);
+      if (unknown == held) continue;
+      const double from_first = static_cast<double>(e) + nodes[i / 2];
+      const Eigen::Index k = index(unknown);
+      chain.mass(k) = mass_.at(unknown, unknown);
+      chain.from_middle(k) = chain.length * (from_first - 0.5 * static_cast<double>(n_elements_));
+      chain.translation(k) = i % 2 == 0 ? 1.0 : 0.0;
     }
-    return indices;
-  };
-  for (const Element& element : elements_) chain.unknowns.push_back(own(element.unknowns, 0));
-  chain.unknowns.push_back(own(elements_.back().unknowns, n_own));
-  chain.mass.resize(index(n_unknowns()));
-  for (std::size_t i = 0; i < n_unknowns(); ++i) chain.mass(index(i)) = mass_.at(i, i);
+  }
   if (!chain.pinned) {
-    chain.translation = Vector::Map(translation().data(), index(n_unknowns()));
     chain.end_rotations = {std::exchange(chain.unknowns.front()[1], -1)};
     if (!symmetric()) chain.end_rotations.push_back(std::exchange(chain.unknowns.back()[1], -1));
   }
-  std::vector<Family> families = {family_of(chain, true, bending_stiffness)};
-  if (!symmetric()) families.push_back(family_of(chain, false, bending_stiffness));
-  std::vector<Mode> found;
-  for (const Family& family : families) {
-    if (!add_modes(chain, family, found)) return dense_natural_modes(*this, bending_stiffness);
-  }
-  std::ranges::stable_sort(found, {}, [](const Mode& mode) { return mode.square.value(); });
-  NaturalModes modes = written(chain, families, found);
-  complete(modes, *this, bending_stiffness);
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    if (found[k].is_between_close_poles) make_orthogonal(modes, k, mass());
-  }
-  return modes;
+  std::optional<NaturalModes> modes = modes_of(chain, symmetric(), bending_stiffness, mass());
+  if (!modes) return dense_natural_modes(*this, bending_stiffness);
+  complete(*modes, *this, bending_stiffness);
+  return std::move(*modes);
 }
 
 }  // namespace subimpact
