@@ -38,6 +38,7 @@ class ModalMesh final : public BeamMesh {
   double highest_frequency(double bending_stiffness) const override;
   NaturalModes natural_modes(double bending_stiffness) const override;
   bool has_closed_modes() const override { return physical_->has_closed_modes(); }
+  double closed_modes_work() const override { return physical_->closed_modes_work(); }
   std::span<const double> modal_stiffness() const override { return stiffness_; }
   std::string description() const override;
 

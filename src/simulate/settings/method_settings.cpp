@@ -31,9 +31,8 @@ constexpr double matrices_of_dense_modes = 6.0;  // and mass, stiffness, decompo
 constexpr double matrices_of_flight = 3.0;       // of free flight beside the modes
 
 // Modes of n = 600 unknowns take 0.5 s by dense decomposition, as 600^3/2 entries of right-hand
-// sides do, and some 4 ms in closed form.
+// sides do.
 constexpr double work_per_dense_mode = 0.5;
-constexpr double work_per_closed_entry = 2.0;
 
 // Names in a list.
 std::string methods_that(bool (*holds)(const MethodDescriptor&)) {
@@ -248,7 +247,7 @@ double decomposition_of(const Options& options, const StruckBeam& beam) {
   if (!in_modes(options, beam.mesh(), beam.damping())) return 0.0;
   const BeamMesh& mesh = beam.mesh();
   const auto n = static_cast<double>(mesh.n_unknowns());
-  return mesh.has_closed_modes() ? work_per_closed_entry * n * n : work_per_dense_mode * n * n * n;
+  return mesh.has_closed_modes() ? mesh.closed_modes_work() : work_per_dense_mode * n * n * n;
 }
 
 double memory_of(const Options& options, const StruckBeam& beam) {

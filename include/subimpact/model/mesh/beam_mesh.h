@@ -165,10 +165,12 @@ class BeamMesh {
   virtual NaturalModes natural_modes(double bending_stiffness) const {
     return dense_natural_modes(*this, bending_stiffness);
   }
-  /// Whether natural_modes() needs no matrix decomposition: it then takes n^2 operations (spectral
-  /// elements: n^3/2, as a product of matrices) and numbers, in place of some 10 n^3 operations and
-  /// six times as many numbers.
+  /// Whether natural_modes() needs no matrix decomposition, and a sixth of the memory.
   virtual bool has_closed_modes() const { return false; }
+  /// What natural_modes() then takes, as a number of entries of right-hand sides, roughly.
+  virtual double closed_modes_work() const {
+    return 2.0 * static_cast<double>(n_unknowns()) * static_cast<double>(n_unknowns());
+  }
 
   /// Coefficients of the moments M in the work -g^T B^T W M of displacements g, m.
   virtual void moment_weights(std::span<const double> unknowns, std::span<double> weights) const;

@@ -290,6 +290,10 @@ bool SpectralMesh::has_closed_modes() const {
          std::abs(elements_.back().length / elements_.front().length - 1.0) < rounding;
 }
 
+double SpectralMesh::closed_modes_work() const {
+  return 0.05 * std::pow(static_cast<double>(n_unknowns()), 3);
+}
+
 NaturalModes SpectralMesh::natural_modes(double bending_stiffness) const {
   if (!has_closed_modes()) return dense_natural_modes(*this, bending_stiffness);
   Chain chain;
