@@ -180,7 +180,8 @@ TEST(SpectralElements, OfUnequalLengthsHaveNoModesFromWaves) {
   beam.poisson = 0.3;
   const SpectralMesh mesh(beam, 0.31, 50, SpectralMesh::Extent::whole);
   EXPECT_FALSE(mesh.has_closed_modes());
-  expect_modes(mesh, beam.bending_stiffness(), 1e-12, 1e-9);
+  EXPECT_EQ(mesh.natural_modes(beam.bending_stiffness()).frequencies,
+            dense_natural_modes(mesh, beam.bending_stiffness()).frequencies);
 }
 
 // As above.
