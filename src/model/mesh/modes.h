@@ -47,9 +47,9 @@ struct ShearCellChain : CellChain {
 std::optional<NaturalModes> shear_cell_modes(const ShearCellChain& chain, bool symmetric_only,
                                              const BandedMatrix& mass);
 
-/// Of two waves whose frequencies squared are closer than `close`, relative to their size, the mode
-/// between them has its shares of both from their difference, and takes what rounding makes of it
-/// from others (make_orthogonal); closer than `apart` it cannot be found.
+/// Gaps between the frequencies squared of two waves, relative to their size. Below `close_poles`
+/// the mode between the waves loses digits to rounding and must be made orthogonal to the others;
+/// below `apart_poles` it cannot be found.
 constexpr double apart_poles = 1e-11, close_poles = 1e-5;
 
 /// Takes from mode k what it has of the others, all of unit mass.
