@@ -18,7 +18,6 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       loads_(std::move(parts.loads)),
       damping_(parts.damping),
       depends_on_velocity_(parts.contact_damping > 0.0 || !parts.damping.is_none()),
-      shears_(mesh_->shears()),
       highest_frequency_(mesh_->highest_frequency(sections_.stiffness())),
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
@@ -89,8 +88,7 @@ void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces
   } else {
     sections_.moments(curvatures_, moments_, &outside_);
   }
-  mesh_->bending_forces(moments_, forces);
-  if (shears_) mesh_->add_shear_forces(unknowns, forces);
+  mesh_->internal_forces(unknowns, moments_, forces);
 }
 
 void StruckBeam::acceleration(std::span<const double> positions, std::span<double> result) {
@@ -139,8 +137,7 @@ void StruckBeam::add_stiffness_damping(std::span<const double> velocities,
     moments_[i] = sections_.stiffness() * curvatures_[i];
   }
   damping_forces_.resize(n_);
-  mesh_->bending_forces(moments_, damping_forces_);
-  if (shears_) mesh_->add_shear_forces(velocities, damping_forces_);
+  mesh_->internal_forces(velocities, moments_, damping_forces_);
   for (std::size_t i = 0; i < n_; ++i) forces[i] += damping_.stiffness * damping_forces_[i];
 }
 

@@ -211,7 +211,6 @@ class StruckBeam final : public MechanicalSystem {
   BeamDamping damping_;
   bool depends_on_velocity_;
   Losses losses_;
-  bool shears_;
   // For an elastic beam in natural modes, else empty: stiffnesses, and factors of accelerations.
   std::span<const double> modal_stiffness_;
   std::vector<double> modal_frequencies_squared_, modal_loads_;

@@ -47,8 +47,7 @@ inline Eigen::MatrixXd stiffness_matrix(const BeamMesh& mesh, double bending_sti
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n, j);
     mesh.curvatures(entries(unit), kappa);
     for (double& value : kappa) value *= bending_stiffness;
-    mesh.bending_forces(kappa, entries(forces));
-    if (mesh.shears()) mesh.add_shear_forces(entries(unit), entries(forces));
+    mesh.internal_forces(entries(unit), kappa, entries(forces));
     stiffness.col(j) = -forces;
   }
   return stiffness;

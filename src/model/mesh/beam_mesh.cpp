@@ -77,6 +77,12 @@ void BeamMesh::add_shear_forces(std::span<const double> unknowns, std::span<doub
   shear_stiffness_.subtract_product(unknowns, forces);
 }
 
+void BeamMesh::internal_forces(std::span<const double> unknowns, std::span<const double> moments,
+                               std::span<double> forces) const {
+  bending_forces(moments, forces);
+  if (shears()) add_shear_forces(unknowns, forces);
+}
+
 double BeamMesh::shear_energy(std::span<const double> unknowns) const {
   return shear_stiffness_.size() > 0 ? 0.5 * shear_stiffness_.quadratic_form(unknowns) : 0.0;
 }

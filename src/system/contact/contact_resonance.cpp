@@ -41,8 +41,7 @@ class JoinedBodies {
     } else {
       mesh_.curvatures(unknowns, moments_);
       for (double& moment : moments_) moment *= beam_.sections().stiffness();
-      mesh_.bending_forces(moments_, forces);
-      mesh_.add_shear_forces(unknowns, forces);
+      mesh_.internal_forces(unknowns, moments_, forces);
       for (double& force : forces) force = -force;
     }
     const double force = slope_ * (x[n_] - mesh_.struck_point()(unknowns));

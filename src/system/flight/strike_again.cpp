@@ -86,8 +86,7 @@ std::optional<std::vector<double>> StruckBeam::equilibrium() const {
   for (int i = 0; i <= n_refinements; ++i) {
     mesh_->curvatures(q, kappa);
     for (double& k : kappa) k *= stiffness;
-    mesh_->bending_forces(kappa, rest);
-    mesh_->add_shear_forces(q, rest);
+    mesh_->internal_forces(q, kappa, rest);
     loads_.add_to(rest, loads_.start());
     factor->solve_as_factor(rest);
     for (std::size_t k = 0; k < n_; ++k) q[k] += rest[k];

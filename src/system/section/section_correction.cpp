@@ -158,8 +158,7 @@ void SectionCorrector::sum_terms(const std::vector<SectionEvent>& events, std::s
       for (const SectionEvent& event : events) {
         moments_[event.section] = event.tangent * curvatures_[event.section];
       }
-      beam_.mesh().bending_forces(moments_, forces_);
-      beam_.mesh().add_shear_forces(sum, forces_);
+      beam_.mesh().internal_forces(sum, moments_, forces_);
       sum.swap(forces_);
       beam_.mass_solver().solve(sum);
       ++n_mass_solves_;

@@ -43,8 +43,9 @@ inline double dot(std::span<const double> a, std::span<const double> b) {
 }
 
 /// What every mesh promises: bending forces are the exact transpose of curvatures; the stencil of a
-/// section is its row of curvatures, to `rounding` of the sum of its terms' sizes; bending has no
-/// net force on a free beam; the struck point takes force as it gives displacement.
+/// section is its row of curvatures, to `rounding` of the sum of its terms' sizes; internal forces
+/// are those of bending and shear; bending has no net force on a free beam; the struck point takes
+/// force as it gives displacement.
 inline void expect_mesh_contract(const BeamMesh& mesh, double rounding = 1e-13) {
   SCOPED_TRACE(mesh.description());
   for (unsigned seed = 0; seed < 10; ++seed) {
@@ -63,6 +64,15 @@ inline void expect_mesh_contract(const BeamMesh& mesh, double rounding = 1e-13) 
     for (const double f : forces) force_size += std::abs(f);
     if (!mesh.translation().empty()) {
       EXPECT_NEAR(dot(forces, mesh.translation()), 0.0, 1e-14 * force_size);
+    }
+    std::vector<double> tiny = w, both(mesh.n_unknowns(), 7.0), added = forces;
+    for (double& x : tiny) x *= 1e-8;  // for forces of either kind that are about alike
+    mesh.internal_forces(tiny, moments, both);
+    mesh.add_shear_forces(tiny, added);
+    const double largest =
+        *std::ranges::max_element(added, {}, [](double f) { return std::abs(f); });
+    for (std::size_t i = 0; i < both.size(); ++i) {
+      EXPECT_NEAR(both[i], added[i], 1e-13 * std::abs(largest)) << i;
     }
     if (seed > 0) continue;
     for (std::size_t i = 0; i < kappa.size(); ++i) {
@@ -99,8 +109,7 @@ inline void expect_modes(const BeamMesh& mesh, double stiffness, double rounding
     }
     mesh.curvatures(modes.shape(k), kappa);
     for (double& x : kappa) x *= stiffness;
-    mesh.bending_forces(kappa, force);
-    mesh.add_shear_forces(modes.shape(k), force);
+    mesh.internal_forces(modes.shape(k), kappa, force);
     const double w2 = modes.frequencies[k] * modes.frequencies[k];
     double residual = 0.0, size = 0.0;
     for (std::size_t i = 0; i < modes.size(); ++i) {

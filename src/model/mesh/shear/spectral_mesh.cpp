@@ -71,8 +71,11 @@ std::size_t count_unknowns(const Beam& beam, std::size_t n_elements, bool half) 
 
 }  // namespace
 
-SpectralMesh::Strains::Strains(double length, double gyration) {
+SpectralMesh::Strains::Strains(double length, double gyration, double shear_stiffness,
+                               double copies) {
   for (std::size_t q = 0; q < n_points; ++q) {
+    weights[of_bending + q] = copies * length * gauss<n_points>.weights[q];
+    weights[of_shear + q] = shear_stiffness * weights[of_bending + q];
     for (std::size_t a = 0; a < n_nodes; ++a) {
       const double slope = shapes.slope[q][a] / length;
       rows[of_shear + q][2 * a] = slope;
@@ -129,7 +132,9 @@ void SpectralMesh::place_elements(const Beam& beam, double position) {
   };
   const double before = length_of(position, n_before_);
   const double after = length_of(1.0 - position, n_elements_ - n_before_);
-  strains_ = {Strains(before, gyration_), Strains(after, gyration_)};
+  for (const double element : {before, after}) {
+    strains_.emplace_back(element, gyration_, shear_stiffness_per_length_, copies());
+  }
   for (std::size_t e = 0; e < n_kept; ++e) {
     const std::size_t side = e < n_before_ ? 0 : 1;
     Element element{side == 0 ? before : after, side, {}, true};
@@ -173,12 +178,11 @@ void SpectralMesh::assemble_mass(const Beam& beam) {
 void SpectralMesh::assemble_shear() {
   shear_stiffness_ = BandedMatrix(n_unknowns(), 2 * degree + 1);
   for (const Element& element : elements_) {
-    for (std::size_t q = 0; q < n_points; ++q) {
-      const double weight =
-          copies() * shear_stiffness_per_length_ * element.length * gauss<n_points>.weights[q];
-      const Values& row = strains_[element.side].rows[of_shear + q];
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        for (std::size_t j = i; j < row.size(); ++j) {
+    for (std::size_t q = of_shear; q < of_shear + n_points; ++q) {
+      const double weight = strains_[element.side].weights[q];
+      const auto& row = strains_[element.side].rows[q];
+      for (std::size_t i = 0; i < element.unknowns.size(); ++i) {
+        for (std::size_t j = i; j < element.unknowns.size(); ++j) {
           const std::size_t from = element.unknowns[i], to = element.unknowns[j];
           if (from != held && to != held) shear_stiffness_.at(from, to) += weight * row[i] * row[j];
         }
@@ -245,42 +249,50 @@ const double* SpectralMesh::read(const Element& element, const double* unknowns,
   return values.data();
 }
 
-// The node that an element shares with the next one waits in registers: to load what has just been
-// stored in parts would stall.
-template <class StressesOf>
-void SpectralMesh::add_stresses(std::size_t first_row, StressesOf stresses_of,
-                                double* forces) const {
+// What an element does to the node that it shares with the next one is added there, so that every
+// force is stored once.
+template <std::size_t first, std::size_t end, class StressesOf>
+void SpectralMesh::add_stresses(StressesOf stresses_of, double* forces) const {
+  alignas(Strains) std::array<double, n_lanes> stresses, before;  // of this element, of the last
+  const Strains* strains_before = nullptr;
   double* shared = nullptr;
-  double waiting[2] = {};
-  const auto store_shared = [&] {
-    for (std::size_t i = 0; i < 2 && shared != nullptr; ++i) shared[i] += waiting[i];
+  const auto add_shared = [&] {
+    for (std::size_t i = 0; i < 2 && shared != nullptr; ++i) {
+      for (std::size_t q = first; q < end; ++q) {
+        shared[i] -= before[q] * strains_before->rows[q][n_lanes + i];
+      }
+    }
     shared = nullptr;
-    waiting[0] = waiting[1] = 0.0;
   };
   for (const Element& element : elements_) {
-    const Values* row = strains_[element.side].rows.data() + first_row;
-    const Stresses stresses = stresses_of(element);
+    const Strains& strains = strains_[element.side];
+    stresses_of(element, strains, stresses.data());
     if (!element.is_contiguous) {
-      store_shared();
+      add_shared();
       for (std::size_t i = 0; i < element.unknowns.size(); ++i) {
         if (element.unknowns[i] == held) continue;
-        for (std::size_t q = 0; q < n_points; ++q) {
-          forces[element.unknowns[i]] -= stresses[q] * row[q][i];
+        for (std::size_t q = first; q < end; ++q) {
+          forces[element.unknowns[i]] -= stresses[q] * strains.rows[q][i];
         }
       }
       continue;
     }
     double* f = forces + element.unknowns[0];
-    Lanes eight = lanes_at(f);
-    for (std::size_t i = 0; i < 2; ++i) eight[i] += std::exchange(waiting[i], 0.0);
-    for (std::size_t q = 0; q < n_points; ++q) {
-      eight -= stresses[q] * lanes_at(row[q].data());
-      for (std::size_t i = 0; i < 2; ++i) waiting[i] -= stresses[q] * row[q][n_lanes + i];
+    Lanes even = lanes_at(f), odd{};
+    for (std::size_t q = first; q < end; q += 2) {
+      even -= stresses[q] * lanes_at(strains.rows[q].data());
+      odd -= stresses[q + 1] * lanes_at(strains.rows[q + 1].data());
     }
-    store(eight, f);
+    for (std::size_t q = first; q < end && shared != nullptr; q += 2) {
+      even -= before[q] * lanes_at(strains_before->rows[q].data() + n_lanes);
+      odd -= before[q + 1] * lanes_at(strains_before->rows[q + 1].data() + n_lanes);
+    }
+    store(even + odd, f);
     shared = f + n_lanes;
+    before = stresses;
+    strains_before = &strains;
   }
-  store_shared();
+  add_shared();
 }
 
 void SpectralMesh::curvatures(std::span<const double> unknowns, std::span<double> kappa) const {
@@ -296,21 +308,7 @@ void SpectralMesh::curvatures(std::span<const double> unknowns, std::span<double
   }
 }
 
-void SpectralMesh::bending_forces(std::span<const double> moments, std::span<double> forces) const {
-  std::fill(forces.begin(), forces.end(), 0.0);
-  const double* m = moments.data();
-  const auto stresses_of = [&](const Element& element) {
-    const double length = copies() * element.length;
-    Stresses stresses;
-    for (std::size_t q = 0; q < n_points; ++q) {
-      stresses[q] = length * gauss<n_points>.weights[q] * *m++;
-    }
-    return stresses;
-  };
-  add_stresses(of_bending, stresses_of, forces.data());
-}
-
-Lanes SpectralMesh::shear_strains(const Element& element, const double* unknowns) const {
+Lanes SpectralMesh::strains_of(const Element& element, const double* unknowns) const {
   Values values;
   const double* v = read(element, unknowns, values);
   const auto of = [&](std::size_t i) {
@@ -324,29 +322,56 @@ Lanes SpectralMesh::shear_strains(const Element& element, const double* unknowns
   return even + odd;
 }
 
+void SpectralMesh::put_bending(const Strains& strains, const double* moments, double* stresses) {
+  for (std::size_t q = 0; q < n_points; ++q) {
+    stresses[of_bending + q] = strains.weights[of_bending + q] * moments[q];
+  }
+}
+
+void SpectralMesh::put_shear(const Element& element, const double* unknowns,
+                             double* stresses) const {
+  const auto& weights = strains_[element.side].weights;
+  store(strains_of(element, unknowns) * lanes_at(weights.data()), stresses);
+}
+
+void SpectralMesh::bending_forces(std::span<const double> moments, std::span<double> forces) const {
+  std::fill(forces.begin(), forces.end(), 0.0);
+  const double* m = moments.data();
+  const auto of = [&](const Element&, const Strains& strains, double* stresses) {
+    put_bending(strains, std::exchange(m, m + n_points), stresses);
+  };
+  add_stresses<of_bending, of_bending + n_points>(of, forces.data());
+}
+
 void SpectralMesh::add_shear_forces(std::span<const double> unknowns,
                                     std::span<double> forces) const {
-  const auto stresses_of = [&](const Element& element) {
-    const Lanes strains = shear_strains(element, unknowns.data());
-    const double stiffness = copies() * shear_stiffness_per_length_ * element.length;
-    Stresses stresses;
-    for (std::size_t q = 0; q < n_points; ++q) {
-      stresses[q] = stiffness * gauss<n_points>.weights[q] * strains[of_shear + q];
-    }
-    return stresses;
+  const auto of = [&](const Element& element, const Strains&, double* stresses) {
+    put_shear(element, unknowns.data(), stresses);
   };
-  add_stresses(of_shear, stresses_of, forces.data());
+  add_stresses<of_shear, of_shear + n_points>(of, forces.data());
+}
+
+void SpectralMesh::internal_forces(std::span<const double> unknowns,
+                                   std::span<const double> moments,
+                                   std::span<double> forces) const {
+  std::fill(forces.begin(), forces.end(), 0.0);
+  const double* m = moments.data();
+  const auto of = [&](const Element& element, const Strains& strains, double* stresses) {
+    put_shear(element, unknowns.data(), stresses);
+    put_bending(strains, std::exchange(m, m + n_points), stresses);
+  };
+  add_stresses<0, 2 * n_points>(of, forces.data());
 }
 
 double SpectralMesh::shear_energy(std::span<const double> unknowns) const {
   double sum = 0.0;
   for (const Element& element : elements_) {
-    const Lanes strains = shear_strains(element, unknowns.data());
-    for (std::size_t q = 0; q < n_points; ++q) {
-      sum += element.length * gauss<n_points>.weights[q] * strains[q] * strains[q];
+    const Lanes strains = strains_of(element, unknowns.data());
+    for (std::size_t q = of_shear; q < of_shear + n_points; ++q) {
+      sum += strains_[element.side].weights[q] * strains[q] * strains[q];
     }
   }
-  return 0.5 * copies() * shear_stiffness_per_length_ * sum;
+  return 0.5 * sum;
 }
 
 // No assembly of elements, and no support, has a higher frequency than its highest element.

@@ -35,6 +35,8 @@ class SpectralMesh final : public BeamMesh {
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
+  void internal_forces(std::span<const double> unknowns, std::span<const double> moments,
+                       std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
   /// Polynomials of degree 4 in each element.
   std::optional<SparseFunctional> displacement_at(double x) const override;
@@ -50,14 +52,15 @@ class SpectralMesh final : public BeamMesh {
 
   using Values = std::array<double, 2 * n_nodes>;
   // What 1 m in an unknown of an element adds to the strains at its Gauss points: rows of shear
-  // strains, then of curvatures (1/m), by unknowns; and the columns, all strains of an unknown.
+  // strains, then of curvatures (1/m), by unknowns, filled up with zeros; the columns, all strains
+  // of an unknown; and what a strain has for a weight: kGA or 1 N m2 times the length (m).
   static constexpr std::size_t of_shear = 0, of_bending = n_points;  // first rows
-  struct Strains {
-    Strains(double length, double gyration);
-    std::array<Values, 2 * n_points> rows;
-    std::array<std::array<double, 2 * n_points>, 2 * n_nodes> columns;
+  struct alignas(64) Strains {
+    Strains(double length, double gyration, double shear_stiffness, double copies);
+    std::array<std::array<double, 2 * n_lanes>, n_lanes> rows{};
+    std::array<std::array<double, n_lanes>, 2 * n_nodes> columns;
+    std::array<double, n_lanes> weights;
   };
-  using Stresses = std::array<double, n_points>;  // times the length that a point stands for
 
   // Indices of an element's unknowns, node by node: w, r phi; `held` for those left out.
   static constexpr std::size_t held = static_cast<std::size_t>(-1);
@@ -69,10 +72,13 @@ class SpectralMesh final : public BeamMesh {
   };
   // The unknowns of an element, in `values` unless they follow each other.
   static const double* read(const Element& element, const double* unknowns, Values& values);
-  // Takes from the forces what the stresses of all elements do; asks for them in order.
-  template <class StressesOf>
-  void add_stresses(std::size_t first_row, StressesOf stresses_of, double* forces) const;
-  Lanes shear_strains(const Element& element, const double* unknowns) const;  // first lanes
+  // Takes from the forces what the stresses of all elements do, of the strains from `first` to
+  // before `end`, times the length that a point stands for; asks for them in order.
+  template <std::size_t first, std::size_t end, class StressesOf>
+  void add_stresses(StressesOf stresses_of, double* forces) const;
+  Lanes strains_of(const Element& element, const double* unknowns) const;
+  static void put_bending(const Strains& strains, const double* moments, double* stresses);
+  void put_shear(const Element& element, const double* unknowns, double* stresses) const;
 
   void place_elements(const Beam& beam, double position);
   void assemble_mass(const Beam& beam);

@@ -87,13 +87,13 @@ void add_waves(const Chain& chain, std::size_t k, std::vector<Wave>& waves) {
   const auto& m = chain.masses;
   Own inertia;
   inertia << m(0) + m(8), m(1) + m(9), m(2), m(2), m(3), m(3), m(4), m(5);
-  const Own scale = inertia.cwiseSqrt().cwiseInverse();
+  const Own scale = inertia.unaryExpr([](double m) { return 1.0 / std::sqrt(m); });
   const Eigen::Matrix<double, n_values, n_own> even = field.real() * scale.asDiagonal();
   const Eigen::Matrix<double, n_values, n_own> odd = field.imag() * scale.asDiagonal();
   const Eigen::Matrix<double, n_own, n_own> of_even = chain.strains * even;
   const Eigen::Matrix<double, n_own, n_own> of_odd = chain.strains * odd;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n_own, n_own>> solver(
-      of_even.transpose() * of_even + of_odd.transpose() * of_odd);
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(of_even.transpose() * of_even +
+                                                     of_odd.transpose() * of_odd);
   for (int j = 0; j < n_own; ++j) {
     const Own y = solver.eigenvectors().col(j);
     const double square = (of_even * y).squaredNorm() + (of_odd * y).squaredNorm();
