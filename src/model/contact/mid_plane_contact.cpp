@@ -148,16 +148,22 @@ double MidPlaneContact::slope(ContactHistory history, double lambda) const {
   return elastic_force(dent.stiffness, a).slope / elastic_indentation(dent.stiffness, a).slope;
 }
 
+// Force and its slope in lambda.
+ValueAndSlope MidPlaneContact::plastic(double lambda) const {
+  thread_local Last<ValueAndSlope> last;
+  return last.of(serial_, lambda, [&]() -> ValueAndSlope {
+    const double a = half_width_at(lambda);
+    const ValueAndSlope force = loading_force(a);
+    return {force.at, force.slope / indentation(a, 1.0, force).slope};
+  });
+}
+
 double MidPlaneContact::plastic_force(double lambda) const {
-  if (!(lambda > first_yield_)) return force({}, lambda);
-  return loading_force(half_width_at(lambda)).at;
+  return lambda > first_yield_ ? plastic(lambda).at : force({}, lambda);
 }
 
 double MidPlaneContact::plastic_slope(double lambda) const {
-  if (!(lambda > first_yield_)) return slope({}, lambda);
-  const double a = half_width_at(lambda);
-  const ValueAndSlope force = loading_force(a);
-  return force.slope / indentation(a, 1.0, force).slope;
+  return lambda > first_yield_ ? plastic(lambda).slope : slope({}, lambda);
 }
 
 // The integral of F d lambda, in which that of c F dF is taken by parts.
@@ -182,18 +188,21 @@ double MidPlaneContact::recoverable_energy(ContactHistory history, double lambda
 
 double MidPlaneContact::dissipated_energy(ContactHistory history) const {
   if (!(history.max_indentation > first_yield_)) return 0.0;
-  constexpr double panel = 0.125;
-  const double a_y = pressure_->first_yield, a_m = half_width_at(history.max_indentation);
-  // In s, a = a_y cosh s, nothing grows like a root where yielding begins.
-  const double end = std::acosh(std::max(a_m / a_y, 1.0));
-  const auto power_in_s = [&](double s) {
-    const double a = a_y * std::cosh(s);
-    const ValueAndSlope force = loading_force(a);
-    return force.at * indentation(a, 1.0, force).slope * a_y * std::sinh(s);
-  };
-  const double work = integral(power_in_s, 0.0, end, 1 + static_cast<int>(end / panel));
-  const double returned = elastic_energy(loading_force(a_m).at / power(a_m), a_m);
-  return std::max(elastic_energy(nose_.stiffness, a_y) + work - returned, 0.0);
+  thread_local Last<double> last;
+  return last.of(serial_, history.max_indentation, [&] {
+    constexpr double panel = 0.125;
+    const double a_y = pressure_->first_yield, a_m = half_width_at(history.max_indentation);
+    // In s, a = a_y cosh s, nothing grows like a root where yielding begins.
+    const double end = std::acosh(std::max(a_m / a_y, 1.0));
+    const auto power_in_s = [&](double s) {
+      const double a = a_y * std::cosh(s);
+      const ValueAndSlope force = loading_force(a);
+      return force.at * indentation(a, 1.0, force).slope * a_y * std::sinh(s);
+    };
+    const double work = integral(power_in_s, 0.0, end, 1 + static_cast<int>(end / panel));
+    const double returned = elastic_energy(loading_force(a_m).at / power(a_m), a_m);
+    return std::max(elastic_energy(nose_.stiffness, a_y) + work - returned, 0.0);
+  });
 }
 
 }  // namespace subimpact

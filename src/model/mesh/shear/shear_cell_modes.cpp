@@ -1,5 +1,6 @@
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -8,6 +9,7 @@
 
 #include "model/mesh/modes.h"
 #include "model/mesh/shear/secular_equation.h"
+#include "numerics/lanes.h"
 
 // A chain whose ends do not turn (phi = 0 at the end faces, no shear force) has waves for modes.
 // A free end is such an end without the section of its end cell, and with the rotary inertia of
@@ -57,21 +59,40 @@ Poles poles_of(const ShearCellChain& chain, bool symmetric) {
   return sorted;
 }
 
-// Every second value from `first` on, up to `end`: the real parts of value, value ratio, value
-// ratio^2, ..., as far as they are felt. In real numbers: products of complex ones look for NaN.
-void add_powers(double* first, const double* end, std::ptrdiff_t step, Complex value,
+// Adds the real parts of values[0], values[1] ratio, values[0] ratio^2, values[1] ratio^3, ... to
+// the entries of a shape, from the first on or from the last one back, as far as they are felt.
+// In real numbers: products of complex ones look for NaN.
+void add_powers(std::span<double> shape, bool backward, std::array<Complex, 2> values,
                 Complex ratio) {
   constexpr double felt = 1e-280;  // numbers with fewer digits are slow
   const double decay = -std::log(std::abs(ratio));
-  const double range = std::log(std::abs(value)) - std::log(felt);
-  auto n = (end - first) / step;
+  const double range =
+      std::log(std::max(std::abs(values[0]), std::abs(values[1]))) - std::log(felt);
   if (!(range > 0.0)) return;
-  if (!(range > static_cast<double>(n) * decay)) n = static_cast<std::ptrdiff_t>(range / decay);
-  double a = value.real(), b = value.imag();
-  for (double* at = first; n > 0; --n, at += step) {
-    *at += a;
-    const double turned = a * ratio.real() - b * ratio.imag();
-    b = a * ratio.imag() + b * ratio.real();
+  const std::size_t size = shape.size();
+  const auto n =
+      range > static_cast<double>(size) * decay ? size : static_cast<std::size_t>(range / decay);
+  Lanes a, b;  // real and imaginary parts of eight
+  Complex power = 1.0;
+  for (std::size_t k = 0; k < n_lanes; ++k) {
+    const Complex value = values[k % 2] * power;
+    const std::size_t lane = backward ? n_lanes - 1 - k : k;
+    a[lane] = value.real();
+    b[lane] = value.imag();
+    power *= ratio;
+  }
+  const double re = power.real(), im = power.imag();
+  for (std::size_t i = 0; i < n; i += n_lanes) {
+    if (i + n_lanes <= size) {
+      double* const at = shape.data() + (backward ? size - i - n_lanes : i);
+      store(lanes_at(at) + a, at);
+    } else {
+      for (std::size_t k = 0; i + k < size; ++k) {
+        shape[backward ? size - 1 - i - k : i + k] += a[backward ? n_lanes - 1 - k : k];
+      }
+    }
+    const Lanes turned = a * re - b * im;
+    b = a * im + b * re;
     a = turned;
   }
 }
@@ -96,16 +117,12 @@ void add_wave(const ShearCellChain& chain, double square, double rest, bool symm
   const Complex scale = (decays ? 1.0 : 2.0) * factor / (1.0 - sign * power(from_end_to_end));
   const Complex g = (s < 0.0 ? Complex(0.0, 2.0) : Complex(2.0)) * sine / chain.spacing;
   const Complex units[] = {Complex(0.0, -1.0) * g * scale, chain.gyration * rest * scale};
-  const Complex ratio = power(2);
-  double* const begin = shape.data();
-  for (std::size_t kind = 0; kind < 2; ++kind) {  // displacements, rotations
-    const std::size_t n = (shape.size() - kind + 1) / 2, last = kind + 2 * (n - 1);
-    add_powers(begin + kind, begin + kind + 2 * n, 2, units[kind] * power(1 + kind), ratio);
-    if (!decays) continue;
-    const double of_far = kind == 0 ? sign : -sign;
-    add_powers(begin + last, begin + kind - 2, -2,
-               of_far * units[kind] * power(from_end_to_end - 1 - last), ratio);
-  }
+  const Complex ratio = power(1);
+  add_powers(shape, false, {units[0] * ratio, units[1] * ratio}, ratio);
+  if (!decays) return;
+  const std::size_t last = (shape.size() - 1) % 2;  // whether a rotation
+  const Complex of_far = (last == 0 ? sign : -sign) * power(from_end_to_end - shape.size());
+  add_powers(shape, true, {of_far * units[last], -of_far * units[1 - last]}, ratio);
 }
 
 void fill_shape(const ShearCellChain& chain, double lambda, bool symmetric,
