@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "numerics/lanes.h"
+#include "numerics/sin_cos.h"
 
 namespace subimpact {
 
@@ -174,12 +175,17 @@ double FreeFlight::begin() {
 
 void FreeFlight::flow_to(double t, double* z, double* rates) const {
   const auto omega = horizon_.frequencies();
-  for (std::size_t k = 0; k <= n_; ++k) {
-    const double w = omega[k];
-    const double c = std::cos(w * t);
-    const double s = w > 0.0 ? std::sin(w * t) / w : t;
-    z[k] = c * z0_[k] + s * rates0_[k];
-    rates[k] = c * rates0_[k] - w * w * s * z0_[k];
+  for (std::size_t k = 0; k <= n_; k += n_lanes) {
+    Lanes angles{};
+    const std::size_t count = std::min(n_lanes, n_ + 1 - k);
+    for (std::size_t i = 0; i < count; ++i) angles[i] = omega[k + i] * t;
+    const auto [sine, cosine] = sin_cos(angles);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double w = omega[k + i], c = cosine[i], q = z0_[k + i], v = rates0_[k + i];
+      const double s = w > 0.0 ? sine[i] / w : t;
+      z[k + i] = c * q + s * v;
+      rates[k + i] = c * v - w * w * s * q;
+    }
   }
 }
 
