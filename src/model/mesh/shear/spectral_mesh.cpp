@@ -253,7 +253,7 @@ const double* SpectralMesh::read(const Element& element, const double* unknowns,
 // force is stored once.
 template <std::size_t first, std::size_t end, class StressesOf>
 void SpectralMesh::add_stresses(StressesOf stresses_of, double* forces) const {
-  alignas(Strains) std::array<double, n_lanes> stresses, before;  // of this element, of the last
+  alignas(Strains) std::array<double, n_lanes> stresses{}, before{};  // of this element, the last
   const Strains* strains_before = nullptr;
   double* shared = nullptr;
   const auto add_shared = [&] {
