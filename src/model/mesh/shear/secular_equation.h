@@ -39,14 +39,19 @@ SecularRoot root_below(const Poles& poles, Eigen::Index i, Right right) {
               (poles.at.segment(first, count) - origin - offset))
           .sum();
     };
-    const double rest = sum(0, n_before) + sum(i + 1, n_after) - right(origin + offset);
     const double lower = has_lower ? from_low : 1.0;
-    return rest * lower * from_high - low_weight * from_high + poles.weight[i] * lower;
+    const double of_beside = poles.weight[i] * lower - low_weight * from_high;
+    if (lower * from_high == 0.0) return of_beside;
+    const double rest = sum(0, n_before) + sum(i + 1, n_after) - right(origin + offset);
+    return rest * lower * from_high + of_beside;
   };
-  const auto above = [&](double x) { return condition(low, x, gap - x, x); };
-  const auto below = [&](double x) { return condition(poles.at[i], gap - x, x, -x); };
-  if (above(0.5 * gap) > 0.0) return {low, root_in(above, 0.0, 0.5 * gap)};
-  return {poles.at[i], -root_in(below, 0.0, 0.5 * gap)};
+  const double middle = 0.5 * gap, there = condition(low, middle, middle, middle);
+  const auto above = [&](double x) { return x == middle ? there : condition(low, x, gap - x, x); };
+  const auto below = [&](double x) {
+    return x == middle ? there : condition(poles.at[i], gap - x, x, -x);
+  };
+  if (there > 0.0) return {low, root_in(above, 0.0, middle)};
+  return {poles.at[i], -root_in(below, 0.0, middle)};
 }
 
 /// The root above all poles, for a negative constant on the right.

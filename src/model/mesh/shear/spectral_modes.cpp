@@ -76,7 +76,8 @@ Eigen::Matrix<Complex, n_values, n_own> field_of(double theta) {
   field(7, 5) = -half;
   field.bottomRows<2>() = field.topRows<2>();
   for (int row = 0; row < n_values; ++row) {
-    field.row(row) *= std::polar(1.0, theta * (row / 2) / SpectralMesh::degree);
+    const int node = row / 2;
+    field.row(row) *= std::polar(1.0, theta * node / SpectralMesh::degree);
   }
   return field;
 }
