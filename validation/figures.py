@@ -62,11 +62,11 @@ def peers(table, axes):
     for panel, scene in zip(axes, dict.fromkeys(table["scene"])):
         lines(panel, table, "contestant", "error_us", "seconds", dict.fromkeys(table["contestant"]),
               table["scene"] == scene)
-        panel.set(xscale="log", yscale="log", title=scene.replace("-", " "),
-                  xlabel="largest error of an event time, µs")
+        panel.set(xscale="log", yscale="log", title=scene.replace("-", " "))
         panel.xaxis.set_major_locator(matplotlib.ticker.LogLocator(numticks=4))
         panel.minorticks_off()
     axes[0].set_ylabel("processor time, s")
+    axes[len(axes) // 2].set_xlabel("largest error of an event time, µs")
     axes[-1].legend(loc="upper left", bbox_to_anchor=(1, 1), fontsize=7)
 
 
