@@ -60,7 +60,7 @@ class Exponential final : public Integrator {
   double bound_ = -1.0;
   ForcePolynomial force_;
   double force_length_ = 0.0;
-  std::optional<ForcePolynomial> continued_;  // of the forced step before, on the same branch
+  std::optional<ForcePolynomial> continued_;  // of the adaptive forced step before
   ForcedOscillators::Loads step_loads_;       // from the step's start on
   double lambda1_ = 0.0, rate1_ = 0.0;        // at time()
   double size_ = 0.0;                         // sum |c_i q_i| at the step's start

@@ -141,7 +141,8 @@ class BeamMesh {
   virtual bool shears() const { return shear_stiffness_.size() > 0; }
   /// forces -= K_s q, N; nothing where sections do not shear.
   virtual void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const;
-  /// forces = -B^T W moments - K_s q, N.
+  /// forces = -B^T W moments - K_s q, N: what bending_forces() and add_shear_forces() give, whose
+  /// separate callers an override must agree with. `forces` must not overlap the others.
   virtual void internal_forces(std::span<const double> unknowns, std::span<const double> moments,
                                std::span<double> forces) const;
   /// q^T K_s q/2, J.

@@ -78,6 +78,7 @@ class SpectralMesh final : public BeamMesh {
   void add_stresses(StressesOf stresses_of, double* forces) const;
   Lanes strains_of(const Element& element, const double* unknowns) const;
   static void put_bending(const Strains& strains, const double* moments, double* stresses);
+  // Fills all eight: put_bending() comes after it.
   void put_shear(const Element& element, const double* unknowns, double* stresses) const;
 
   void place_elements(const Beam& beam, double position);
