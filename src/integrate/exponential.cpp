@@ -71,7 +71,6 @@ void Exponential::restart(double t, const State& y) {
   lambda1_ = displacement(y1_.data());
   rate1_ = displacement(y1_.data() + n_);
   bound_ = -1.0;
-  continued_.reset();
 }
 
 void Exponential::end_step(const OscillatorStep& taken) {
@@ -266,9 +265,6 @@ void Exponential::forced_step() {
   const double rate0 = rate1_;
   const ForcedOscillators::Force start = oscillators_.force(lambda0);
   const double tolerance = options_.relative_tolerance * scales_.position;
-  // The first guess of a force continues that of the step before.
-  const std::optional<ForcePolynomial> before = std::exchange(continued_, std::nullopt);
-  const double length_before = force_length_;
   for (;; ++level_) {
     if (level_ > deepest_level) {
       undo_step();
@@ -281,9 +277,7 @@ void Exponential::forced_step() {
     if (!step_loads_.value.empty()) trial.add_loads(step_loads_, free);
     NodeForces forces;
     for (std::size_t i = 0; i < n_force_nodes; ++i) {
-      const double s = gauss<n_force_nodes>.points[i];
-      forces[i] = before ? (*before)(1.0 + s * h / length_before)
-                         : start.value + start.slope * rate0 * s * h;
+      forces[i] = start.value + start.slope * rate0 * gauss<n_force_nodes>.points[i] * h;
     }
     NodeForces lambda;
     if (solve(trial, free, forces, lambda)) {
@@ -306,7 +300,6 @@ void Exponential::forced_step() {
           (trial.error_per_swing() == 0.0 ||
            resolves_side(ends, h, 2.0 * uncertainty + error_of_swings(trial)))) {
         if (error <= part_for_doubling * tolerance) level_ = std::max(level_ - 1, first_level_);
-        continued_ = force_;
         return;
       }
     } else if (options_.fixed_step) {

@@ -2,7 +2,6 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "integrate/options.h"
 #include "integrate/oscillator_step.h"
@@ -60,10 +59,9 @@ class Exponential final : public Integrator {
   double bound_ = -1.0;
   ForcePolynomial force_;
   double force_length_ = 0.0;
-  std::optional<ForcePolynomial> continued_;  // of the adaptive forced step before
-  ForcedOscillators::Loads step_loads_;       // from the step's start on
-  double lambda1_ = 0.0, rate1_ = 0.0;        // at time()
-  double size_ = 0.0;                         // sum |c_i q_i| at the step's start
+  ForcedOscillators::Loads step_loads_;  // from the step's start on
+  double lambda1_ = 0.0, rate1_ = 0.0;   // at time()
+  double size_ = 0.0;                    // sum |c_i q_i| at the step's start
 };
 
 }  // namespace subimpact

@@ -148,22 +148,16 @@ double MidPlaneContact::slope(ContactHistory history, double lambda) const {
   return elastic_force(dent.stiffness, a).slope / elastic_indentation(dent.stiffness, a).slope;
 }
 
-// Force and its slope in lambda.
-ValueAndSlope MidPlaneContact::plastic(double lambda) const {
-  thread_local Last<ValueAndSlope> last;
-  return last.of(serial_, lambda, [&]() -> ValueAndSlope {
-    const double a = half_width_at(lambda);
-    const ValueAndSlope force = loading_force(a);
-    return {force.at, force.slope / indentation(a, 1.0, force).slope};
-  });
-}
-
 double MidPlaneContact::plastic_force(double lambda) const {
-  return lambda > first_yield_ ? plastic(lambda).at : force({}, lambda);
+  if (!(lambda > first_yield_)) return force({}, lambda);
+  return loading_force(half_width_at(lambda)).at;
 }
 
 double MidPlaneContact::plastic_slope(double lambda) const {
-  return lambda > first_yield_ ? plastic(lambda).slope : slope({}, lambda);
+  if (!(lambda > first_yield_)) return slope({}, lambda);
+  const double a = half_width_at(lambda);
+  const ValueAndSlope force = loading_force(a);
+  return force.slope / indentation(a, 1.0, force).slope;
 }
 
 // The integral of F d lambda, in which that of c F dF is taken by parts.

@@ -61,8 +61,7 @@ class MidPlaneContact final : public ContactLaw {
   };
   Dent dent_of(ContactHistory history) const;
   double half_width_of(const Dent& dent, double indentation) const;
-  double power(double half_width) const;            // a^n
-  ValueAndSlope plastic(double indentation) const;  // loading, beyond first yield
+  double power(double half_width) const;  // a^n
   ValueAndSlope elastic_force(double stiffness, double half_width) const;
   ValueAndSlope loading_force(double half_width) const;
   // share a^2/(2 R) + c(a) F

@@ -173,8 +173,7 @@ Eigen::MatrixXd decomposed_shapes(const BeamMesh& mesh, double bending_stiffness
     unit[column] = 1.0;
     mesh.curvatures(unit, kappa);
     for (double& k : kappa) k *= bending_stiffness;
-    mesh.bending_forces(kappa, force);
-    mesh.add_shear_forces(unit, force);
+    mesh.internal_forces(unit, kappa, force);
     for (Eigen::Index i = 0; i < n; ++i) stiffness(i, j) = -force[static_cast<std::size_t>(i)];
     unit[column] = 0.0;
   }

@@ -266,6 +266,27 @@ double johnsons_restitution(double pressure, double energy) {
                    std::pow(energy / (pressure * R * R * R), -0.25));
 }
 
+// Laws keep the value that they computed last, by thread.
+TEST(MidPlaneContact, AnswersAmongOthersAsItDoesAlone) {
+  const std::vector<Variant> all = variants();
+  const auto answers = [](const MidPlaneContact& law, double depth) {
+    const ContactHistory deepest{depth};
+    return std::array{law.plastic_force(depth), law.plastic_slope(depth),
+                      law.force(deepest, 0.9 * depth), law.residual_indentation(deepest),
+                      law.dissipated_energy(deepest)};
+  };
+  const std::vector<double> depths = {5e-5, 4e-5, 3e-5};
+  std::vector<std::array<double, 5>> alone;
+  for (const Variant& of : all) {
+    for (const double depth : depths) alone.push_back(answers(of.law, depth));
+  }
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      EXPECT_EQ(answers(all[k].law, depths[i]), alone[k * depths.size() + i]) << all[k].name;
+    }
+  }
+}
+
 TEST(BallContact, HasJohnsonsRestitutionDeepInThePlasticRange) {
   const MidPlaneContact sharp = ball(cut_off(Nose::ball, 1.6), INFINITY);
   const MidPlaneContact rising = ball(by_depth(Nose::ball), INFINITY);

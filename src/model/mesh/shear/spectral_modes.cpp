@@ -88,7 +88,7 @@ void add_waves(const Chain& chain, std::size_t k, std::vector<Wave>& waves) {
   const auto& m = chain.masses;
   Own inertia;
   inertia << m(0) + m(8), m(1) + m(9), m(2), m(2), m(3), m(3), m(4), m(5);
-  const Own scale = inertia.unaryExpr([](double m) { return 1.0 / std::sqrt(m); });
+  const Own scale = inertia.unaryExpr([](double x) { return 1.0 / std::sqrt(x); });
   const Eigen::Matrix<double, n_values, n_own> even = field.real() * scale.asDiagonal();
   const Eigen::Matrix<double, n_values, n_own> odd = field.imag() * scale.asDiagonal();
   const Eigen::Matrix<double, n_own, n_own> of_even = chain.strains * even;
@@ -291,7 +291,8 @@ bool SpectralMesh::has_closed_modes() const {
          std::abs(elements_.back().length / elements_.front().length - 1.0) < rounding;
 }
 
-// Measured: 401 unknowns take 3 ms and 961 take 24 ms.
+// Measured: half models of 401 and 961 unknowns take 3.1 and 23 ms, decomposed, which counts n^3/2,
+// 24 and 303 ms.
 double SpectralMesh::closed_modes_work() const {
   return 0.05 * std::pow(static_cast<double>(n_unknowns()), 3);
 }
