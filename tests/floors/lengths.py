@@ -1,7 +1,7 @@
 """lengths.py <project>: are files, functions and folders short enough to hold in the head?
 
-Prints the longest of each and the lines of src, include and apps; status 1 and what is too long.
-Functions are measured by universal-ctags.
+Prints the longest of each, the lines of src, include and apps, and those of all that is installed; status 1 and what is
+too long. Limits of the two sums: limits.json. Functions are measured by universal-ctags.
 """
 
 import json
@@ -10,6 +10,9 @@ import sys
 from pathlib import Path
 
 FILE, FUNCTION, FOLDER, SCRIPTS = 450, 60, 18, 13
+# No part of an installation; of python/, bindings and the rest of the build counted beyond what they had.
+BESIDE = (".ci/", "benchmarks/", "cmake/", "docs/", "examples/", "fuzz/", "scripts/", "tests/", "validation/")
+PYTHON_BESIDE_PACKAGE = 1269
 
 EXCEPTIONS = {
     "src/case/keys/case_keys.cpp: make_case_keys()": "a table: one row a key",
@@ -25,7 +28,7 @@ tracked = subprocess.run(["git", "ls-files"], cwd=project, check=True, capture_o
 files = [name for name in tracked if name and (project / name).is_file()]
 sources = [name for name in files if name.endswith((".h", ".cpp"))]
 lines = {name: (project / name).read_bytes().count(b"\n") for name in files
-         if name in sources or name.startswith(("src/", "include/", "apps/"))}
+         if name in sources or "/" in name and not name.startswith(BESIDE)}
 too_long = []
 
 
@@ -55,7 +58,15 @@ judge("lines of a file", {name: lines[name] for name in sources}, FILE)
 judge("lines of a function", dict(functions()), FUNCTION)
 judge("entries in a folder", dict(entries()), FOLDER)
 judge("files in scripts", {"scripts": sum(name.startswith("scripts/") for name in files)}, SCRIPTS)
-counted = {top: sum(n for name, n in lines.items() if name.startswith(top + "/")) for top in ("src", "include", "apps")}
-print(f"lines of src, include, apps: {sum(counted.values())}")
+limits = json.loads((Path(__file__).parent / "limits.json").read_text())
+installed = {name: n for name, n in lines.items() if not name.startswith(BESIDE)}
+package = sum(n for name, n in installed.items() if name.startswith("python/subimpact/"))
+python = sum(n for name, n in installed.items() if name.startswith("python/")) - package
+sums = {"src, include, apps": sum(n for name, n in installed.items() if name.startswith(("src/", "include/", "apps/")))}
+sums["all that is installed"] = sum(installed.values()) - python + max(0, python - PYTHON_BESIDE_PACKAGE)
+for name, n in sums.items():
+    print(f"lines of {name}: {n} (at most {limits[name]})")
+    if n > limits[name]:
+        too_long.append(f"{name}: {n} lines, more than {limits[name]}")
 if too_long:
     sys.exit("\n".join(too_long))
