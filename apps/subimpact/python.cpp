@@ -73,6 +73,11 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return pointers;
 }
 
+int cannot_run(const std::string& python) {
+  print_error("subimpact: {}: cannot be run; {}\n", python, remedy);
+  return refused;
+}
+
 constexpr int not_run = 127;
 
 // Waits for the end of a process. A terminal sends Ctrl-C to both; the child decides how to end.
@@ -102,8 +107,30 @@ int run_python(const std::string& module, const std::vector<std::string>& argume
   }
   const int status = child < 0 ? not_run : status_of_ended(child);
   if (status != not_run) return status;
-  print_error("subimpact: {}: cannot be run; {}\n", python, remedy);
-  return refused;
+  return cannot_run(python);
+}
+
+void add_python(CLI::App& program, int& status) {
+  CLI::App* command = program.add_subcommand(
+      "python", "Run Python where `import subimpact` finds the package of this program");
+  command->footer(
+      "Its arguments are those of Python. The package is that of the build tree or of the "
+      "installation of this program, else the one "
+      "that Python has. SUBIMPACT_PYTHON_EXECUTABLE names another interpreter.\n"
+      "Examples:\n"
+      "  subimpact python\n"
+      "  subimpact python script.py\n"
+      "  subimpact python -c 'import subimpact; print(subimpact.__version__)'\n"
+      "Exit status: that of Python; 2 without Python.");
+  command->prefix_command();
+  command->callback([=, &status] {
+    const std::string python = interpreter();
+    std::vector<std::string> words = command->remaining();
+    words.insert(words.begin(), python);
+    std::vector<std::string> variables = environment_with(package_directory());
+    execvpe(python.c_str(), pointers_to(words).data(), pointers_to(variables).data());
+    status = cannot_run(python);
+  });
 }
 
 }  // namespace subimpact::app

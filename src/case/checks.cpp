@@ -157,24 +157,17 @@ void check_contact(const Case& input) {
 constexpr double most_history_rows = 5e6;
 constexpr double most_shape_rows = 2e7;
 
-// "; time.end is 8 s, ...", if its unit is doubtful.
-std::string doubt_of_end_time(const Case& input) {
-  for (const std::string& doubt : doubtful_units(input)) {
-    if (doubt.starts_with("time.end ")) return "; " + doubt;
-  }
-  return {};
-}
-
 // Refuses an interval at which a run writes more rows than a file should hold.
 void check_rows(const Case& input, const char* key, double interval, double rows_each, double most,
                 const std::string& what, const char* remedy) {
   const double rows = input.end_time / interval * rows_each;
   if (interval == 0.0 || rows <= most) return;
+  const std::string doubt = doubtful_unit(input, "time.end");
   refuse(key,
          "is {} s, which gives {:.2g} {}; allowed: at most {:.0e} rows, so {:.2g} s or more, or 0 "
          "for none; use a longer interval{}{}",
          interval, rows, what, most, input.end_time * rows_each / most, remedy,
-         doubt_of_end_time(input));
+         doubt.empty() ? doubt : "; " + doubt);
 }
 
 void check_output(const Case& input) {

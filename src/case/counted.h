@@ -19,9 +19,4 @@ std::string counted(Count n, std::string_view noun) {
   return fmt::format("{} {}", n, noun_after(n, noun));
 }
 
-/// A number with so many significant digits, without a power of ten up to 1e10: 120, not 1.2e+02.
-inline std::string with_significant(double value, int digits) {
-  return fmt::format("{:.10g}", std::stod(fmt::format("{:.{}e}", value, digits - 1)));
-}
-
 }  // namespace subimpact

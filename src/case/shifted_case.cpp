@@ -56,10 +56,8 @@ std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key
     return value + fmt::format("at an end of its range ({}), and shifts to both sides are needed",
                                key.range);
   }
-  for (const std::string& note : keys_without_effect(input, {{key.name}, {}})) {
-    return value + note.substr(std::min(note.find("has no effect"), note.size()));
-  }
-  return std::nullopt;
+  const std::string why = why_without_effect(input, key);
+  return why.empty() ? std::nullopt : std::optional(value + why);
 }
 
 std::vector<std::string> shifted_keys(const Case& input) {

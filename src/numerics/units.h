@@ -2,6 +2,10 @@
 
 /// Factors by which values in SI units are multiplied to be shown in other units.
 
+#include <fmt/format.h>
+
+#include <string>
+
 namespace subimpact {
 
 constexpr double us = 1e6;    // of seconds
@@ -9,5 +13,10 @@ constexpr double mm = 1e3;    // of metres
 constexpr double um = 1e6;    // of metres
 constexpr double MPa = 1e-6;  // of pascals
 constexpr double MB = 1e-6;   // of bytes
+
+/// A number with so many significant digits, without a power of ten up to 1e10: 120, not 1.2e+02.
+inline std::string with_significant(double value, int digits) {
+  return fmt::format("{:.10g}", std::stod(fmt::format("{:.{}e}", value, digits - 1)));
+}
 
 }  // namespace subimpact

@@ -55,15 +55,17 @@ std::string map_text(const OutcomeMap& map) {
       "out\n",
       map.reference.description, counted(map.reference.sub_impacts.size(), "sub-impact"),
       map.reference.horizon * us);
-  std::string group, row;
+  std::optional<bool> fixed_step;
+  std::string row;
   for (const OutcomePoint& point : map.points) {
-    if (point.group != group) {
-      if (!group.empty()) text += '\n';
-      group = point.group;
+    if (point.setting.fixed_step != fixed_step) {
+      if (fixed_step) text += '\n';
+      fixed_step = point.setting.fixed_step;
       row.clear();
-      text += fmt::format("\n{:<28}", group == "tolerance" ? "rtol" : "omega_max h");
+      text += fmt::format("\n{:<28}", *fixed_step ? "omega_max h" : "rtol");
       for (const OutcomePoint& other : map.points) {
-        if (other.group == group && other.row == point.row) text += fmt::format(" {:>6g}", other.x);
+        if (other.setting.fixed_step != fixed_step || other.row != point.row) continue;
+        text += fmt::format(" {:>6g}", other.x);
       }
     }
     if (point.row != row) {
@@ -140,7 +142,10 @@ StabilityPart part_of(const OutcomeMap& map) {
     return completed ? std::optional(value) : std::nullopt;
   };
   const Columns<OutcomePoint> columns = {
-      {"group", &OutcomePoint::group},
+      {"group",
+       [](const OutcomePoint& p) {
+         return std::string(p.setting.fixed_step ? "fixed step" : "tolerance");
+       }},
       {"row", &OutcomePoint::row},
       {"omega_h_or_rtol", &OutcomePoint::x},
       {"verdict", [](const OutcomePoint& p) { return p.verdict; }},

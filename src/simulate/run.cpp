@@ -180,12 +180,12 @@ LoopOptions loop_options(const RunParts& parts) {
   const ContactLaw& law = parts.beam.contact().law();
   // A spring may be a pad or a bumper, thicker than the beam.
   const bool is_spring = law.scales().exponent == 1.0 && std::isinf(law.yield_threshold({}));
-  // Of a plane only the law that models its columns knows the thickness.
-  const bool on_plane = parts.problem.beam.fixed && law.name() != "foundation";
+  // Of a plane only the law that models its columns knows the height.
+  const bool on_plane = parts.problem.beam.fixed && law.limit() != ContactLaw::Limit::height;
   loop.largest_indentation = is_spring || on_plane ? HUGE_VAL : parts.problem.beam.height();
   if (const double deepest = law.largest_indentation(); deepest < loop.largest_indentation) {
     loop.largest_indentation = deepest;
-    const bool is_measured = law.name() == "curve";
+    const bool is_measured = law.limit() == ContactLaw::Limit::last_point;
     loop.end_of_law = fmt::format("{:.4g} mm, {}", mm * deepest,
                                   is_measured ? "the last point of contact.curve_indentation"
                                               : "where the contact is as wide as the law \"" +

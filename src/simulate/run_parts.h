@@ -87,9 +87,6 @@ double available_memory(const std::filesystem::path& root = "/");
 // Settings of the method as a run uses them. All throw InvalidCase, by the key, for what the method
 // cannot take; `used` is what has been resolved before.
 
-/// For a mesh that is made for one step of central differences: not for another method, settings
-/// that would change the step, or a contact too stiff for it.
-
 /// The given table, or the first one of the method; none for a method without tables.
 std::optional<std::string> table_used(const Options& options);
 

@@ -56,6 +56,22 @@ std::string_view to_string(OutcomeKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
+std::string_view to_string(ErrorSource source) {
+  static constexpr std::string_view names[] = {"layers", "mesh", "mesh and time", "time"};
+  return names[static_cast<std::size_t>(source)];
+}
+
+std::string_view to_string(RunTotal name) {
+  // clang-format off
+  static constexpr std::string_view names[] = {
+      "sub_impacts", "zones", "striker_velocity_m_per_s", "beam_mean_velocity_m_per_s",
+      "restitution", "impulse_Ns", "peak_force_N", "max_indentation_m", "residual_indentation_m",
+      "max_displacement_m", "max_moment_Nm", "max_strain", "reaction_along_N", "reaction_against_N",
+      "permanent_set_m", "hinge_rotation_rad", "striker_energy_share", "dissipated_J"};
+  // clang-format on
+  return names[static_cast<std::size_t>(name)];
+}
+
 std::string_view to_string(NearMissKind kind) {
   return kind == NearMissKind::opening ? "opening" : "closing";
 }

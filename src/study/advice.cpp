@@ -81,8 +81,8 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
   const bool is_confirmed = !estimate || !estimate->finer_meshes ||
                             estimate->finer_meshes->n_same == result.sub_impacts.size();
   if (estimate && (!result.all_certain() || !is_confirmed)) {
-    const bool is_stopped_by_work =
-        result.tolerance && result.tolerance->key == "accuracy.work_limit";
+    const bool is_stopped_by_work = result.tolerance && result.tolerance->obstacle &&
+                                    result.tolerance->obstacle->kind == Reason::Kind::work_limit;
     if (result.choice.empty()) {
       all.push_back(chosen_mesh(input, given, result));
       if (all.back().options.empty()) all.pop_back();

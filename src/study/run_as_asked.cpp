@@ -93,9 +93,9 @@ StrikeRow row_of(int strike, const WithinRun& run) {
   row.contact_dissipated = end.contact_plastic;
   if (!result.error_estimate) return row;
   for (const auto& [name, total] : result.error_estimate->totals) {
-    if (name == "restitution") row.restitution_error = total.error;
-    if (name == "peak_force_N") row.peak_force_error = total.error;
-    if (name == "permanent_set_m") row.permanent_set_error = total.error;
+    if (name == RunTotal::restitution) row.restitution_error = total.error;
+    if (name == RunTotal::peak_force) row.peak_force_error = total.error;
+    if (name == RunTotal::permanent_set) row.permanent_set_error = total.error;
   }
   return row;
 }

@@ -10,8 +10,6 @@ constexpr const char* spoilt_cases[][3] = {
     {"\nlength", "\nlenght", R"(unknown key "beam.lenght"|did you mean "beam.length")"},
     {"segments = 501", "segments = 500",
      R"(bad.toml:26:1: model.segments is 500|odd|499 or 501|symmetry = "off")"},
-    {R"(mesh = "cells")", R"(mesh = "mixed")",
-     R"(model.mesh|mixed cells were removed|"cells"|leave model.mesh out)"},
     {R"(method = "erk")", "method = \"central-difference\"\nstep = 1e-6",
      "solver.step is 1 us|stability limit|0.284"},
     {R"(method = "erk")", "method = \"nystrom\"\ntable = \"dop853\"",

@@ -25,3 +25,6 @@ help_text = subprocess.run(
 assert "--workers" in help_text.stdout
 version = subprocess.run([prefix + "/bin/subimpact", "--version"], env=environment, capture_output=True, text=True, check=True)
 assert subimpact.__version__ in version.stdout
+found = subprocess.run([prefix + "/bin/subimpact", "python", "-c", "import subimpact; print(subimpact.__file__)"],
+                       env=environment, capture_output=True, text=True, check=True)
+assert os.path.realpath(found.stdout.strip()).startswith(prefix), found.stdout

@@ -12,8 +12,7 @@ namespace subimpact {
 inline void expect_one_account(const Result& result) {
   ASSERT_TRUE(result.error_estimate);
   const ErrorEstimate& estimate = *result.error_estimate;
-  const auto named =
-      std::ranges::find(estimate.totals, std::string("sub_impacts"), &NamedTotal::name);
+  const auto named = std::ranges::find(estimate.totals, RunTotal::sub_impacts, &NamedTotal::name);
   ASSERT_NE(named, estimate.totals.end());
   const auto& [count, error] = named->total;
   const auto n = static_cast<double>(result.sub_impacts.size());

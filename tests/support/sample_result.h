@@ -58,7 +58,7 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
   estimate.refined_run = "the same, coarser";
   if (n_certain < n) {
     estimate.first_unresolved = n_certain;
-    estimate.reason = "they part";
+    estimate.reason = Reason{{}, "they part"};
   }
   for (std::size_t i = 0; i < n; ++i) {
     SubImpact& s = result.sub_impacts[i];
@@ -66,7 +66,7 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
     const double error = first ? 0.0163e-6 : 0.26e-6;
     s.certain = i < n_certain;
     s.probability = *s.certain ? 1.0 : 0.75;
-    s.doubt = *s.certain ? "" : "they part";
+    if (!*s.certain) s.doubt = Reason{{}, "they part"};
     s.start_error = first ? 0.0 : error;
     if (s.end) s.end_error = error;
     s.error_mesh = error;
@@ -79,21 +79,21 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
   }
   estimate.parts = {
       {{"the same, coarser", estimate.first_unresolved, estimate.reason, estimate.largest_error},
-       "mesh"}};
+       ErrorSource::mesh}};
   const auto count = [&](std::size_t from, std::size_t to) {  // of [from, to), uncertain ones
     const std::size_t n_before = std::clamp(n_certain, from, to);
     return Total{static_cast<double>(to - from), static_cast<double>(to - n_before)};
   };
   estimate.totals = {
-      {"sub_impacts", count(0, n)},
-      {"zones", {2.0, 0.0}},
-      {"striker_velocity_m_per_s", {result.striker_velocity, 6.4e-4}},
-      {"beam_mean_velocity_m_per_s", {result.beam_mean_velocity, 5.7e-4}},
-      {"restitution", {0.0, 7.6e-5}},
-      {"impulse_Ns", {0.3, 1.1e-3}},
-      {"peak_force_N", {result.max_force, 0.43}},
-      {"max_indentation_m", {result.max_indentation, 8e-9}},
-      {"residual_indentation_m", {result.sub_impacts.back().residual_indentation, 9e-7}}};
+      {RunTotal::sub_impacts, count(0, n)},
+      {RunTotal::zones, {2.0, 0.0}},
+      {RunTotal::striker_velocity, {result.striker_velocity, 6.4e-4}},
+      {RunTotal::beam_mean_velocity, {result.beam_mean_velocity, 5.7e-4}},
+      {RunTotal::restitution, {0.0, 7.6e-5}},
+      {RunTotal::impulse, {0.3, 1.1e-3}},
+      {RunTotal::peak_force, {result.max_force, 0.43}},
+      {RunTotal::max_indentation, {result.max_indentation, 8e-9}},
+      {RunTotal::residual_indentation, {result.sub_impacts.back().residual_indentation, 9e-7}}};
   estimate.zones = {{{0.0, 0.0}, {0.6e-3, 0.26e-6}, {0.2, 5.3e-4}, count(0, 2)},
                     {{5e-3, 0.26e-6}, {result.outcome.time, 0.0}, {0.1, 5.2e-4}, count(2, 3)}};
   result.error_estimate = estimate;
@@ -104,7 +104,7 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
 inline Result sample_result_with_an_uncertain_flight(std::size_t after) {
   Result result = sample_result_with_errors(sample_result().sub_impacts.size());
   ErrorEstimate& estimate = *result.error_estimate;
-  estimate.uncertain_flights = {{after, "there is another one with the same, coarser"}};
+  estimate.uncertain_flights = {{after, {Reason::Kind::another_beside, "the same, coarser"}}};
   estimate.first_unresolved = estimate.parts.front().first_unresolved = after + 1;
   estimate.reason = estimate.parts.front().reason = estimate.uncertain_flights.front().reason;
   estimate.totals.front().total.error = 1.0;

@@ -24,8 +24,7 @@ enum class SectionKind {
 };
 
 enum class MeshKind {
-  cells,  ///< equal cells
-
+  cells,     ///< equal cells
   hermite,   ///< cubic Hermite elements
   spectral,  ///< elements of degree 4, of a beam that shears
   rigid      ///< the beam as a rigid body
@@ -79,6 +78,7 @@ struct Case : Options {
   /// Why theory and contact law are what they are, if they were chosen
   /// (study/model/scene_choice.h); no key.
   std::string model_choice;
+  bool theory_is_chosen = false;  ///< by the program, with the shear that matters; no key
   Scene scene;
   ModelOptions model;
   /// Relative standard deviations of numbers of the scene, by key: "striker.velocity". They do not

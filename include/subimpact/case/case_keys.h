@@ -139,6 +139,8 @@ OpenChoices open_choices(const GivenKeys& given);
 /// file that has no effect because of a setting on the command line: files are often run with other
 /// choices.
 std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys& given);
+/// 'has no effect with model.section = "exact"', of one key; empty if it has one.
+std::string why_without_effect(const Case& input, const CaseKey& key);
 
 /// A value as a case file writes it.
 std::string to_text(const KeyValue& value);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "subimpact/case/case.h"
@@ -10,10 +11,10 @@ namespace subimpact {
 
 /// Values that are probably given in another unit than that of the case file, such as lengths in mm
 /// or stresses in MPa: one sentence per key, with the value, what makes it doubtful and what to
-/// write if that unit was meant; one sentence on all of them where the whole case is plausible in
-/// another system of units (mm, t, s). Empty for every plausible scene; a doubtful one can still be
-/// run.
+/// write if that unit was meant. Empty for every plausible scene; a doubtful one can still be run.
 std::vector<std::string> doubtful_units(const Case& input);
+/// The sentence about the number of one key; empty if its unit is not doubtful.
+std::string doubtful_unit(const Case& input, std::string_view key);
 
 /// Results of a run that exceed the validity of the model (docs/model.md), one sentence each with
 /// the number and what to do; empty if there are none. Rotations are sampled at separations and at

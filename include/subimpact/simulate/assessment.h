@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "subimpact/simulate/reason.h"
 
 namespace subimpact {
 
@@ -14,7 +17,7 @@ namespace subimpact {
 struct SubImpactAssessment {
   std::optional<bool> certain;                  ///< exists, alone, in this place
   std::optional<double> probability;            ///< that it exists so; 1 where certain
-  std::string doubt;                            ///< why it is not certain
+  std::optional<Reason> doubt;                  ///< why it is not certain
   std::optional<double> start_error;            ///< s, error estimate of start: sum of its parts
   std::optional<double> end_error;              ///< s, error estimate of end
   std::optional<double> error_time;             ///< s, part due to the integration in time
@@ -39,8 +42,19 @@ struct Total {
   std::optional<double> error;
 };
 
+// clang-format off
+/// A number of the run as a whole.
+enum class RunTotal {
+  sub_impacts, zones, striker_velocity, beam_mean_velocity, restitution, impulse, peak_force,
+  max_indentation, residual_indentation, max_displacement, max_moment, max_strain, reaction_along,
+  reaction_against, permanent_set, hinge_rotation, striker_energy_share, dissipated
+};
+// clang-format on
+/// Its name in summary.json, with its unit.
+std::string_view to_string(RunTotal name);
+
 struct NamedTotal {
-  std::string name;  ///< with its unit, as in summary.json
+  RunTotal name;
   Total total;
 };
 
@@ -56,22 +70,28 @@ struct ErrorOfTimes {
   /// The first sub-impact (from 0) that is not certain, or that follows a flight which may hold
   /// another one; none if all are certain and no others are possible.
   std::optional<std::size_t> first_unresolved;
-  std::string reason;          ///< why it is not certain
-  double largest_error = 0.0;  ///< s, of the times of the certain sub-impacts
+  std::optional<Reason> reason;  ///< why it is not certain
+  double largest_error = 0.0;    ///< s, of the times of the certain sub-impacts
 };
+
+/// A source of errors.
+enum class ErrorSource { layers, mesh, mesh_and_time, time };
+std::string_view to_string(ErrorSource source);
+inline bool includes_mesh(ErrorSource source) {
+  return source == ErrorSource::mesh || source == ErrorSource::mesh_and_time;
+}
 
 /// The judgement of a run by the runs beside it: which sub-impacts are certain, and errors.
 struct ErrorEstimate : ErrorOfTimes {
-  /// One source of error.
   struct Part : ErrorOfTimes {
-    std::string name;  ///< "time", "mesh", "layers"
+    ErrorSource source = ErrorSource::mesh_and_time;
   };
   std::vector<Part> parts;
 
   /// A flight between two sub-impacts, or after the last, that may hold another sub-impact.
   struct UncertainFlight {
     std::size_t after = 0;  ///< sub-impact, from 0
-    std::string reason;
+    Reason reason;
   };
   std::vector<UncertainFlight> uncertain_flights;
   /// The flight after a sub-impact (from 0), if it may hold another one; else null.
@@ -88,7 +108,7 @@ struct ErrorEstimate : ErrorOfTimes {
     std::size_t n_there = 0;                    ///< sub-impacts on that mesh
     std::size_t n_same = 0;                     ///< sub-impacts that it confirms
     std::optional<double> change_of_first_end;  ///< s, of the end of the first sub-impact
-    std::string doubt;                          ///< why the mesh is too coarse; empty: it is not
+    std::optional<Reason> doubt;                ///< why the mesh is too coarse
   };
   std::optional<FinerMeshes> finer_meshes;
   /// Where many sub-impacts are not certain: what is left of them if contacts parted by less than
@@ -129,8 +149,9 @@ struct ToleranceOutcome {
   bool met = false;      ///< whether every event time of the run is certain and within it
   double reached = 0.0;  ///< s, largest error of the event times before the horizon; inf: not known
   double horizon = 0.0;  ///< s, up to which event times are certain and within it
-  std::string reason;    ///< why the horizon comes before the end; else empty
-  std::string key;       ///< key of the case that prevents it and could be freed; or empty
+  std::optional<Reason> reason;    ///< why the horizon comes before the end
+  std::optional<Reason> obstacle;  ///< why no finer mesh was run, if it was not met
+  std::string key;                 ///< of the case, that prevents it and could be freed; or empty
 };
 
 /// How far a strike with scattering numbers can be predicted: standard deviations by first

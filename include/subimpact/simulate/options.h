@@ -46,7 +46,7 @@ struct AccuracyOptions {
   /// simulate() ignores it.
   std::optional<double> event_times;
   /// Bound on the total work of all runs made to meet `event_times`, in evaluations of the
-  /// right-hand side times unknowns of the beam: about 5 ns each.
+  /// right-hand side times unknowns of the beam: 1 to 3 ns each.
   double work_limit = 2e10;
   /// Largest error of the energy, relative to the initial energy, of a run that counts as
   /// completed; empty: derived from method and rtol, 1e-3 at most.

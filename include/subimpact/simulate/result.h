@@ -199,6 +199,7 @@ struct ResolvedSettings {
   bool half_model = false;
   std::size_t n_unknowns = 0;  ///< of the beam
   std::size_t n_sections = 0;
+  bool bends() const { return n_sections > 1; }
   std::string mesh;                    ///< in words
   std::string contact_law;             ///< its name
   std::string section;                 ///< name of the bending law; "elastic" where it never yields

@@ -12,9 +12,6 @@ from ..plot.style import COLOURS, GREY, figure, legend_above, unit
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from .aligning import Alignment
-    from .reading import Signal
-
     Numbers = npt.NDArray[np.float64]
 
 _MOST_ROWS = 22_000  # of a chart of the page
@@ -50,16 +47,16 @@ def _line(axes: Any, quantity: str, times: Numbers, forces: Numbers, begin: floa
 
 
 @figure("a", height=3.2)
-def draw_signal(signal: Signal, axes: Any) -> None:
-    """A measured force, or a strain, on its own time."""
+def draw_signal(signal: Any, axes: Any) -> None:
+    """A measured force, or a strain, on its own time: a Signal."""
     t, f = signal.times, signal.forces
     _line(axes, signal.quantity, t, f, float(t[0]), float(t[-1]), float(np.abs(f).max()), color=COLOURS[1])
     axes.set_xlabel(axes.get_xlabel().replace("time of the run", "time"))
 
 
 @figure("a", height=3.2)
-def draw_forces(a: Alignment, axes: Any, begin: float | None = None, end: float | None = None, **options: Any) -> None:
-    """The measured force and the computed one on the time of the run."""
+def draw_forces(a: Any, axes: Any, begin: float | None = None, end: float | None = None, **options: Any) -> None:
+    """The measured force and the computed one of an Alignment on the time of the run."""
     part = (a.begin if begin is None else begin, a.end if end is None else end, max(abs(a.computed.peak), abs(a.measured.peak)))
     label = "computed" if a.low_pass is None else "computed, as the transducer shows it"
     _line(axes, a.quantity, a.measured.times, a.measured.forces, *part, color=COLOURS[1], label="measured", **options)
@@ -68,7 +65,7 @@ def draw_forces(a: Alignment, axes: Any, begin: float | None = None, end: float 
 
 
 @figure([["forces"], ["difference"], ["near"]], height=7.4, height_ratios=[2, 1, 2])
-def draw_all(a: Alignment, axes: Any) -> None:
+def draw_all(a: Any, axes: Any) -> None:
     """The measured force and the computed one on the time of the run, their difference (computed less measured), and both
     about the largest force."""
     draw_forces(a, axes[0])

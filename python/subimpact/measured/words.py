@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .aligning import Alignment
+from typing import Any
 
 _MOST_DECIMALS = 6
 
@@ -24,8 +21,8 @@ def _difference(name: str, computed: float, measured: float, unit: str, note: st
     return {"name": name, "value": f"{computed:.4g} {unit} computed, {measured:.4g} measured{percent}", "note": note}
 
 
-def answers_of(a: Alignment) -> list[dict[str, str]]:
-    """Names, values and notes."""
+def answers_of(a: Any) -> list[dict[str, str]]:
+    """Names, values and notes of an Alignment."""
     def known(error: float | None) -> str:
         return "as given" if error is None else "found"
 

@@ -69,7 +69,7 @@ class Doubts {
     striker();
   }
 
-  std::vector<std::string> sentences;
+  std::vector<std::pair<const char*, std::string>> found;  // by key
 
  private:
   // "beam.length is 201 m", the reason and what to write if one of the units was meant.
@@ -77,8 +77,8 @@ class Doubts {
              double low = 0.0, double high = INFINITY) {
     const CaseKey& key = *find_case_key(name);
     const double value = std::get<double>(*key.get(case_));
-    sentences.push_back(fmt::format("{} is {:.6g} {}{}{}", name, value, key.unit, reason,
-                                    proposal(value, units, low, high)));
+    found.emplace_back(name, fmt::format("{} is {:.6g} {}{}{}", name, value, key.unit, reason,
+                                         proposal(value, units, low, high)));
   }
 
   // Doubts a length: out of proportion to another one, or one of lengths that are all doubtful.
@@ -223,70 +223,19 @@ void add_pulls(const Beam& beam, const Result& result, std::vector<std::string>&
   }
 }
 
-// A system of units that agree with each other, in SI units, for files all in it.
-struct UnitSystem {
-  const char* name;
-  double length, mass, time;
-};
-constexpr UnitSystem unit_systems[] = {{"mm, t, s (with N and MPa)", 1e-3, 1e3, 1.0},
-                                       {"mm, kg, ms (with kN and GPa)", 1e-3, 1.0, 1e-3},
-                                       {"mm, g, ms (with N and MPa)", 1e-3, 1e-3, 1e-3},
-                                       {"cm, g, s (with dyn)", 1e-2, 1e-3, 1.0},
-                                       {"cm, g, us (with Mbar)", 1e-2, 1e-3, 1e-6}};
-
-// From the unit of a key in such a system to SI; none for units without a dimension in these.
-std::optional<double> factor_of(std::string_view unit, const UnitSystem& of) {
-  struct Dimension {
-    std::string_view unit;
-    double length, mass, time;
-  };
-  constexpr Dimension dimensions[] = {
-      {"m", 1, 0, 0},    {"kg", 0, 1, 0},     {"s", 0, 0, 1},          {"m/s", 1, 0, -1},
-      {"N", 1, 1, -2},   {"Pa", -1, 1, -2},   {"N/m", 0, 1, -2},       {"N/m2", -1, 1, -2},
-      {"1/s", 0, 0, -1}, {"rad/s", 0, 0, -1}, {"s/m", -1, 0, 1},       {"m/s2", 1, 0, -2},
-      {"Hz", 0, 0, -1},  {"kg/m3", -3, 1, 0}, {"N/m^1.5", -0.5, 1, -2}};
-  const auto found = std::ranges::find(dimensions, unit, &Dimension::unit);
-  if (found == std::end(dimensions)) return std::nullopt;
-  return std::pow(of.length, found->length) * std::pow(of.mass, found->mass) *
-         std::pow(of.time, found->time);
-}
-
-// The case if its file were in that system, and what to write then: "striker.mass = 0.5, ..".
-std::pair<Case, std::string> meant_in(const UnitSystem& system, const Case& input) {
-  Case meant = input;
-  std::string values;
-  for (const CaseKey& key : case_keys()) {
-    const std::optional<KeyValue> value = key.get(input);
-    const bool is_linear = input.scene.contact.kind == ContactKind::linear;
-    const std::optional<double> factor = factor_of(key.name != "contact.stiffness" ? key.unit
-                                                   : is_linear                     ? "N/m"
-                                                                                   : "N/m^1.5",
-                                                   system);
-    const bool is_given = value && value != key.get(Case{});
-    if (!is_given || !factor || *factor == 1.0) continue;
-    std::string text = " likewise";
-    if (const auto* number = std::get_if<double>(&*value)) {
-      if (!std::isfinite(*number)) continue;
-      key.set(meant, *factor * *number);
-      text = fmt::format(" = {:.6g}", *factor * *number);
-    }
-    values += (values.empty() ? "" : ", ") + key.name + text;
-  }
-  return {std::move(meant), values};
-}
-
 }  // namespace
 
 std::vector<std::string> doubtful_units(const Case& input) {
-  std::vector<std::string> doubts = Doubts(input).sentences;
-  if (doubts.size() < 2) return doubts;
-  for (const UnitSystem& system : unit_systems) {
-    const auto [meant, values] = meant_in(system, input);
-    if (!Doubts(meant).sentences.empty()) continue;
-    return {fmt::format("this file looks like {}, but numbers without a unit are SI: write {}",
-                        system.name, values)};
-  }
+  std::vector<std::string> doubts;
+  for (auto& [key, sentence] : Doubts(input).found) doubts.push_back(sentence);
   return doubts;
+}
+
+std::string doubtful_unit(const Case& input, std::string_view key) {
+  for (auto& [of, sentence] : Doubts(input).found) {
+    if (of == key) return sentence;
+  }
+  return {};
 }
 
 std::vector<std::string> beyond_the_model(const Case& input, const Result& result) {
@@ -308,8 +257,7 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
       "the beam's thickness is {:.2g} of its length: plane sections, as in every beam theory, do "
       "not describe so thick a body",
       thickness);
-  const bool is_chosen = input.model_choice.find("beam.theory") != std::string::npos;
-  add(!is_rigid && !beam.shears() && !is_chosen && thickness > thickest_without_shear,
+  add(!is_rigid && !beam.shears() && !input.theory_is_chosen && thickness > thickest_without_shear,
       "the beam's thickness is {:.2g} of its length, and its theory leaves out shear; use "
       "beam.theory = \"timoshenko\"",
       thickness);

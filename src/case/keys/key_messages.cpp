@@ -37,28 +37,16 @@ std::optional<std::string> number_problem(const CaseKey& key, double number,
   return refusal(key, to_text(value));
 }
 
-// The choice meant by a name that is none; empty if there is no telling.
-std::string choice_meant(const CaseKey& key, const std::string& name) {
-  if (is_choice(key, name)) return name;
-  const std::string own = own_name(key.name, name);
-  return own.empty() ? nearest_name(name, key.choice_names()) : own;
-}
-
 std::optional<std::string> choice_problem(const CaseKey& key, const std::string& name) {
   if (is_choice(key, name)) return std::nullopt;
-  const std::string removed = advice_on_removed(key.name, name);
-  if (!removed.empty()) return refusal(key, in_quotes(name)) + "; " + removed;
-  const std::string meant = choice_meant(key, name);
+  const std::string meant = nearest_name(name, key.choice_names());
   return refusal(key, in_quotes(name)) +
          (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?");
 }
 
 // For one name where two are required: the pair that is probably meant.
 std::string pair_hint(const CaseKey& key, const std::string& name) {
-  if (key.name == "beam.ends" && name == "cantilever") {
-    return R"(; did you mean ["clamped", "free"]?)";
-  }
-  const std::string meant = choice_meant(key, name);
+  const std::string meant = nearest_name(name, key.choice_names());
   return meant.empty() ? "" : fmt::format("; did you mean [{0}, {0}]?", in_quotes(meant));
 }
 

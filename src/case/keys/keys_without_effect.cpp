@@ -150,10 +150,14 @@ std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys&
     const char* reason = is_asked ? reason_of(key, input) : nullptr;
     if (reason == nullptr) continue;
     if (!given.in_settings.contains(key.name) && given.in_settings.contains(reason)) continue;
-    notes.push_back(fmt::format("{} has no effect with {}", setting_text(input, key.name),
-                                setting_text(input, reason)));
+    notes.push_back(setting_text(input, key.name) + " " + why_without_effect(input, key));
   }
   return notes;
+}
+
+std::string why_without_effect(const Case& input, const CaseKey& key) {
+  const char* reason = reason_of(key, input);
+  return reason == nullptr ? "" : "has no effect with " + setting_text(input, reason);
 }
 
 }  // namespace subimpact

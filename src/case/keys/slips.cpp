@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,57 +12,6 @@
 
 namespace subimpact {
 namespace {
-
-/// A choice as other programs and textbooks call it: in lower case, with hyphens between words.
-struct OtherNames {
-  const char* key;
-  const char* own;
-  std::vector<std::string_view> others;
-};
-
-const OtherNames other_names[] = {
-    {"beam.ends", "clamped", {"fixed", "built-in", "encastre", "encastered", "rigid"}},
-    {"beam.ends",
-     "pinned",
-     {"simply-supported", "simple", "simple-support", "supported", "ss", "hinged", "hinge",
-      "roller"}},
-    {"solver.method", "erk", {"rk4", "rk45", "ode45", "dopri5", "dop853", "runge-kutta"}},
-    {"solver.method", "nystrom", {"rkn", "nystroem", "runge-kutta-nystrom"}},
-    {"solver.method", "central-difference", {"explicit", "leapfrog", "verlet", "newmark", "cd"}},
-    {"solver.method", "dirk", {"implicit"}},
-    {"solver.method", "bdf", {"gear"}},
-    {"solver.method", "exponential", {"modal"}},
-    {"beam.theory", "euler-bernoulli", {"bernoulli", "bernoulli-euler", "euler"}},
-    {"model.mesh", "hermite", {"finite-elements", "elements", "fem"}},
-    {"model.mesh", "cells", {"finite-differences", "segments"}},
-};
-
-/// Choices that there were, and what to use.
-struct RemovedChoice {
-  std::string_view key, name;
-  const char* advice;
-};
-
-constexpr RemovedChoice removed_choices[] = {
-    {"model.mesh", "mixed", "mixed cells were removed: use \"cells\", or leave model.mesh out"}};
-
-/// Keys as other programs call them, and their names here.
-constexpr std::pair<std::string_view, const char*> other_keys[] = {
-    {"beam.height", "beam.thickness"},     {"beam.modulus", "beam.youngs_modulus"},
-    {"beam.supports", "beam.ends"},        {"striker.radius", "striker.nose_radius"},
-    {"striker.speed", "striker.velocity"}, {"model.cells", "model.segments"},
-    {"time.end_time", "time.end"},         {"solver.tolerance", "solver.rtol"},
-    {"solver.dt", "solver.step"},
-};
-
-std::string spelt_alike(std::string_view name) {
-  std::string text;
-  for (const char c : name) {
-    const bool between_words = c == ' ' || c == '_';
-    text += between_words ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return text;
-}
 
 // Insertions, deletions, replacements and swaps of neighbours (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -199,21 +147,6 @@ std::string decimal_comma_hint(std::string_view text) {
   return "; TOML writes a decimal point: " + number;
 }
 
-std::string own_name(std::string_view key, std::string_view name) {
-  const std::string wanted = spelt_alike(name);
-  for (const OtherNames& row : other_names) {
-    if (row.key == key && std::ranges::find(row.others, wanted) != row.others.end()) return row.own;
-  }
-  return {};
-}
-
-std::string advice_on_removed(std::string_view key, std::string_view name) {
-  for (const RemovedChoice& row : removed_choices) {
-    if (row.key == key && row.name == name) return row.advice;
-  }
-  return {};
-}
-
 bool is_case_table(const std::string& name) {
   return std::any_of(case_keys().begin(), case_keys().end(), [&](const CaseKey& key) {
     return !name.empty() && (key.table() == name || key.name.starts_with(name + "."));
@@ -225,15 +158,8 @@ std::string full_key_name(const std::string& table, const std::string& leaf) {
 }
 
 std::string unknown_key(const std::string& table, const std::string& leaf) {
-  const std::string name = full_key_name(table, leaf);
-  for (const auto& [other, own] : other_keys) {
-    if (other != name) continue;
-    const CaseKey& key = *find_case_key(own);
-    return fmt::format("unknown key \"{}\"; it has moved to \"{}\": the {}; write {} under [{}]",
-                       name, own, key.meaning, key.leaf(), key.table());
-  }
   const std::string where = table.empty() ? "outside all tables" : "in [" + table + "]";
-  return fmt::format("unknown key \"{}\"; allowed {}: {}{}", name, where,
+  return fmt::format("unknown key \"{}\"; allowed {}: {}{}", full_key_name(table, leaf), where,
                      fmt::join(leaves_of(table), ", "), suggestion(table, leaf));
 }
 

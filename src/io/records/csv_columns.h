@@ -23,6 +23,8 @@
 #include <variant>
 #include <vector>
 
+#include "subimpact/simulate/reason.h"
+
 namespace subimpact {
 
 /// A cell as a value; std::monostate: empty.
@@ -32,6 +34,7 @@ enum class CellType { real, whole, words };
 inline Cell to_cell(double value) { return value; }
 inline Cell to_cell(std::integral auto value) { return static_cast<std::int64_t>(value); }
 inline Cell to_cell(std::string_view words) { return std::string(words); }
+inline Cell to_cell(const Reason& reason) { return words_of(reason); }
 template <class Enum>
 requires std::is_enum_v<Enum> Cell to_cell(Enum value) { return std::string(to_string(value)); }
 template <class Value>
@@ -101,6 +104,10 @@ inline bool read_cell(std::string_view cell, double& value) {
 }
 inline bool read_cell(std::string_view cell, std::string& words) {
   words = cell;
+  return true;
+}
+inline bool read_cell(std::string_view cell, Reason& reason) {
+  reason = {Reason::Kind::in_words, std::string(cell)};
   return true;
 }
 template <class Value>

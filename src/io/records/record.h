@@ -46,6 +46,15 @@ Json json_of(double value, Form form);
 void assign(double& value, const Json& json, const std::string& name, Form form);
 Json json_of(const std::string& text, Form form);
 void assign(std::string& text, const Json& json, const std::string& name, Form form);
+inline Json json_of(const Reason& reason, Form) { return words_of(reason); }
+inline void assign(Reason& reason, const Json& json, const std::string&, Form) {
+  reason = {Reason::Kind::in_words, json.get<std::string>()};
+}
+inline Json json_of(const Interval& times, Form) { return {times.from, times.to}; }
+inline void assign(Interval& times, const Json& json, const std::string& name, Form form) {
+  assign(times.from, json.at(0), name, form);
+  assign(times.to, json.at(1), name, form);
+}
 inline Json json_of(bool value, Form) { return value; }
 inline void assign(bool& value, const Json& json, const std::string&, Form) {
   value = json.get<bool>();

@@ -23,16 +23,15 @@ std::span<const Named<NearMissKind>> names_of(NearMissKind) {
   return names_of_kinds<NearMissKind::opening, NearMissKind::closing>();
 }
 
+std::span<const Named<ErrorSource>> names_of(ErrorSource) {
+  using enum ErrorSource;
+  return names_of_kinds<layers, mesh, mesh_and_time, time>();
+}
+
 std::span<const Named<EventKind>> names_of(EventKind) {
   using enum EventKind;
   return names_of_kinds<contact_begins, contact_yields, contact_unloads, contact_ends,
                         section_reverses>();
-}
-
-static Json json_of(const Interval& times, Form) { return {times.from, times.to}; }
-static void assign(Interval& times, const Json& json, const std::string& name, Form form) {
-  assign(times.from, json.at(0), name, form);
-  assign(times.to, json.at(1), name, form);
 }
 
 namespace {
@@ -66,15 +65,16 @@ const Record<ToleranceOutcome> tolerance_record = {
     {"event_times_s", "error of event times that was asked for", &ToleranceOutcome::asked, Form::finite},
     {"reached_error_s", "largest error of a certain event time; null: not known", &ToleranceOutcome::reached},
     {"horizon_s", "up to which event times are certain and within that error", &ToleranceOutcome::horizon, Form::finite},
-    {"reason", "why the horizon comes before the end", &ToleranceOutcome::reason, Form::empty_is_null},
+    {"reason", "why the horizon comes before the end", &ToleranceOutcome::reason},
+    {"obstacle", "why no finer mesh was run", &ToleranceOutcome::obstacle},
     {"key_to_free", "key of the case that prevents it and could be freed", &ToleranceOutcome::key, Form::empty_is_null}};
 
 const Record<ErrorEstimate::Part> error_part_record = {
-    {"name", "time, mesh or layers", &ErrorEstimate::Part::name},
+    {"name", "time, mesh, mesh and time, or layers", &ErrorEstimate::Part::source},
     {"refined_run", "the run compared with", &ErrorEstimate::Part::refined_run},
     {"max_error_s", "largest error of a certain time", &ErrorEstimate::Part::largest_error},
     {"first_unresolved_index", "number, from 1, of the first uncertain sub-impact", &ErrorEstimate::Part::first_unresolved, Form::from_one},
-    {"reason", "why it is uncertain", &ErrorEstimate::Part::reason, Form::empty_is_null}};
+    {"reason", "why it is uncertain", &ErrorEstimate::Part::reason}};
 
 const Record<ErrorEstimate::UncertainFlight> flight_record = {
     {"after_index", "number, from 1, of the sub-impact before it", &ErrorEstimate::UncertainFlight::after, Form::from_one},
@@ -85,7 +85,7 @@ const Record<ErrorEstimate::FinerMeshes> finer_meshes_record = {
     {"sub_impacts", "on that mesh", &ErrorEstimate::FinerMeshes::n_there},
     {"same_sub_impacts", "sub-impacts that it confirms", &ErrorEstimate::FinerMeshes::n_same},
     {"change_of_first_end_s", "what finer meshes change the end of the first sub-impact by", &ErrorEstimate::FinerMeshes::change_of_first_end},
-    {"doubt", "why the mesh is too coarse", &ErrorEstimate::FinerMeshes::doubt, Form::empty_is_null}};
+    {"doubt", "why the mesh is too coarse", &ErrorEstimate::FinerMeshes::doubt}};
 
 const Record<ErrorEstimate::Joined> joined_record = {
     {"opening_m", "contacts parted by less count as one", &ErrorEstimate::Joined::opening},
@@ -96,7 +96,7 @@ const Record<ErrorEstimate> error_record = {
     {"refined_run", "the runs compared with", &ErrorEstimate::refined_run},
     {"max_time_error_s", "largest error of a certain time", &ErrorEstimate::largest_error},
     {"first_unresolved_index", "number, from 1, of the first sub-impact that is not certain", &ErrorEstimate::first_unresolved, Form::from_one},
-    {"reason", "why it is uncertain", &ErrorEstimate::reason, Form::empty_is_null},
+    {"reason", "why it is uncertain", &ErrorEstimate::reason},
     {"parts", "sources of error, one by one", &ErrorEstimate::parts, error_part_record},
     {"uncertain_flights", "", &ErrorEstimate::uncertain_flights, flight_record},
     {"finer_meshes", "of a mesh that the case fixes: what finer ones would change", &ErrorEstimate::finer_meshes, finer_meshes_record},
@@ -288,7 +288,7 @@ Json totals_json(const DescribedRun& run) {
   if (!run.result->error_estimate) return nullptr;
   Json json;
   for (const auto& [name, total] : run.result->error_estimate->totals) {
-    json[name] = json_of(total_record, total);
+    json[to_string(name)] = json_of(total_record, total);
   }
   json["by_zone"] = json_of(zone_totals_record, run.result->error_estimate->zones);
   return json;
@@ -297,9 +297,10 @@ Json totals_json(const DescribedRun& run) {
 void read_totals(const Json& json, DescribedRun& run) {
   if (json.is_null() || !run.result->error_estimate) return;
   ErrorEstimate& estimate = *run.result->error_estimate;
-  for (const auto& [name, total] : json.items()) {
-    if (name == "by_zone") continue;
-    assign(total_record, total, estimate.totals.emplace_back(name, Total()).total);
+  for (int k = 0; k <= static_cast<int>(RunTotal::dissipated); ++k) {
+    const auto total = json.find(to_string(RunTotal{k}));
+    if (total == json.end()) continue;
+    assign(total_record, *total, estimate.totals.emplace_back(RunTotal{k}, Total()).total);
   }
   assign(zone_totals_record, json.at("by_zone"), estimate.zones);
 }

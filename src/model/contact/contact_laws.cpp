@@ -36,11 +36,11 @@ Law make_foundation(const Scene& scene) {
   if (std::isinf(radii.across)) {
     return std::make_shared<PowerContact>(4.0 * std::sqrt(2.0 * radius) * beam.youngs_modulus *
                                               beam.outer_solid().width / (3.0 * depth),
-                                          1.5, yields_at, "foundation");
+                                          1.5, yields_at, "foundation", ContactLaw::Limit::height);
   }
   return std::make_shared<PowerContact>(
       M_PI * std::sqrt(radii.along * radii.across) * beam.youngs_modulus / depth, 2.0, yields_at,
-      "foundation");
+      "foundation", ContactLaw::Limit::height);
 }
 
 double compliance_of(const Scene& scene) {

@@ -43,6 +43,7 @@ class CurveContact final : public ContactLaw {
   double dissipated_energy(ContactHistory history) const override;
   double largest_slope(double indentation) const override;
   double largest_indentation() const override { return last_; }
+  Limit limit() const override { return Limit::last_point; }
 
  private:
   // Unloading from lambda_m: its length, and the place of an indentation on it.

@@ -7,11 +7,12 @@
 namespace subimpact {
 
 PowerContact::PowerContact(double stiffness, double exponent, double yield_indentation,
-                           std::string name)
+                           std::string name, Limit limit)
     : stiffness_(stiffness),
       exponent_(exponent),
       yield_indentation_(yield_indentation),
-      name_(std::move(name)) {
+      name_(std::move(name)),
+      limit_(limit) {
   if (!(stiffness > 0.0) || !std::isfinite(stiffness) || !(exponent >= 1.0) ||
       !(yield_indentation > 0.0)) {
     throw std::invalid_argument(

@@ -20,13 +20,14 @@ class PowerContact final : public ContactLaw {
   /// `stiffness` K > 0 (N/m^n), `exponent` n >= 1, `yield_indentation` lambda_s > 0 (m, may be
   /// infinite). Throws std::invalid_argument otherwise.
   PowerContact(double stiffness, double exponent, double yield_indentation,
-               std::string name = "power law");
+               std::string name = "power law", Limit limit = Limit::width);
 
   double stiffness() const { return stiffness_; }
   double exponent() const { return exponent_; }
   double yield_indentation() const { return yield_indentation_; }
 
   std::string name() const override { return name_; }
+  Limit limit() const override { return limit_; }
   ContactScales scales() const override { return {stiffness_, exponent_}; }
   double residual_indentation(ContactHistory history) const override {
     const double residual = history.max_indentation - yield_indentation_;
@@ -53,6 +54,7 @@ class PowerContact final : public ContactLaw {
   double exponent_;
   double yield_indentation_;
   std::string name_;
+  Limit limit_;
 };
 
 }  // namespace subimpact

@@ -25,8 +25,9 @@ void add_doubts(const Result& result, std::size_t first, const auto& line) {
   std::size_t n = 0;
   for (std::size_t i = first; i < result.sub_impacts.size(); ++i) {
     const SubImpact& s = result.sub_impacts[i];
-    if (s.certain.value_or(true) || s.doubt.empty()) continue;
-    if (++n <= most_doubts) line(false, fmt::format("sub-impact {}: {}.", i + 1, s.doubt));
+    if (s.certain.value_or(true) || !s.doubt) continue;
+    if (++n <= most_doubts)
+      line(false, fmt::format("sub-impact {}: {}.", i + 1, words_of(s.doubt)));
   }
   if (n > most_doubts) line(false, counted(n - most_doubts, "more sub-impact") + ".");
 }
@@ -53,9 +54,8 @@ Json headlines(const Result& result) {
         line(true, fmt::format("{} of {}{}.", *n_certain, counted(n, "sub-impact"), within));
       }
       const ErrorEstimate& estimate = *result.error_estimate;
-      line(false, fmt::format("{}: {}.",
-                              place_of_doubt(result, *estimate.first_unresolved, estimate.reason),
-                              estimate.reason));
+      line(false,
+           fmt::format("{}: {}.", place_of_doubt(result, estimate), words_of(estimate.reason)));
       add_doubts(result, *estimate.first_unresolved + 1, line);
     }
   } else {
@@ -173,7 +173,7 @@ void add_sub_impacts(Json& page, const Result& result) {
     subzone = s.subzone;
     list.push_back({{"index", list.size()},
                     {"row_class", row.is_certain ? "" : " class=\"uncertain\""},
-                    {"doubt", in_print(s.doubt)},
+                    {"doubt", in_print(words_of(s.doubt))},
                     {"begins", begins},
                     {"zone", zone},
                     {"subzone", subzone},
@@ -185,7 +185,7 @@ void add_sub_impacts(Json& page, const Result& result) {
 Json flights(const std::optional<ErrorEstimate>& estimate) {
   if (!estimate) return nullptr;
   return list_of(estimate->uncertain_flights, [](const auto& flight) -> Json {
-    return {{"after", flight.after + 1}, {"reason", in_print(flight.reason)}};
+    return {{"after", flight.after + 1}, {"reason", in_print(words_of(flight.reason))}};
   });
 }
 

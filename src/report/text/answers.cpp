@@ -60,11 +60,11 @@ Answer restitution(const Case& input, const Result& result) {
   std::string words;
   if (until_end) {
     words = "striker " +
-            total_text(result, "striker_velocity_m_per_s", result.striker_velocity, as_velocity);
+            total_text(result, RunTotal::striker_velocity, result.striker_velocity, as_velocity);
     if (scene.beam.is_unsupported()) {
       words +=
           ", beam " +
-          total_text(result, "beam_mean_velocity_m_per_s", result.beam_mean_velocity, as_velocity) +
+          total_text(result, RunTotal::beam_mean_velocity, result.beam_mean_velocity, as_velocity) +
           (scene.striker.position == 0.5 ? " (mean)" : " (mean; it turns)");
     }
     words += " at the end";
@@ -76,7 +76,8 @@ Answer restitution(const Case& input, const Result& result) {
                                 : of_striker + ", against its own of the first touch";
     words += " at the last separation, " + time_text(time);
   }
-  return {"restitution", total_text(result, "restitution", *result.restitution, as_ratio), words};
+  return {"restitution", total_text(result, RunTotal::restitution, *result.restitution, as_ratio),
+          words};
 }
 
 Answer largest_force(const Result& result) {
@@ -86,7 +87,7 @@ Answer largest_force(const Result& result) {
   const auto rounding = rounding_of(hit->certain.value_or(true) ? unit.per_si * error : HUGE_VAL,
                                     decimals_of_times(result, unit));
   const double time = unit.per_si * hit->peak_time;
-  return {"largest force", total_text(result, "peak_force_N", result.max_force, as_force),
+  return {"largest force", total_text(result, RunTotal::peak_force, result.max_force, as_force),
           fmt::format(
               "at {}, in sub-impact {}",
               with_unit(rounding ? with_decimals(time, rounding->decimals) : with_digits(time, 3),
@@ -99,7 +100,7 @@ void add_impulses(const Result& result, std::vector<Answer>& answers) {
   const auto& estimate = result.error_estimate;
   const bool has_totals = estimate && estimate->zones.size() == zones.size();
   answers.push_back(
-      {"impulse", total_text(result, "impulse_Ns", result.impulse(), as_impulse), ""});
+      {"impulse", total_text(result, RunTotal::impulse, result.impulse(), as_impulse), ""});
   for (std::size_t k = 0; k < std::min(zones.size(), most_zones); ++k) {
     const ZoneSummary& zone = zones[k];
     const Total count{static_cast<double>(zone.n_sub_impacts), {}};
@@ -166,23 +167,23 @@ Answer permanent_set(const Case& input, const Result& result) {
         has_tip && is_tip ? "the tip" : fmt::format("{:.4g} m", most.position);
     const std::string hinge_place = fmt::format("{:.4g} m", 0.5 * (hinge.from + hinge.to));
     const double set = std::abs(most.set_from_supports);
-    const double error = error_of_total(result, "permanent_set_m").value_or(0.0);
+    const double error = error_of_total(result, RunTotal::permanent_set).value_or(0.0);
     answer.value = set < error ? "below " + rough_text({set + error, 0.0}, as_length)
-                               : total_text(result, "permanent_set_m", set, as_length);
-    answer.note =
-        fmt::format("at {}, against the {}; largest plastic hinge {} {}", place,
-                    has_tip   ? "clamp"
-                    : is_open ? "chord"
-                              : "supports",
-                    total_text(result, "hinge_rotation_rad", std::abs(hinge.rotation), as_rotation),
-                    hinge_place == place ? "there" : "at " + hinge_place);
+                               : total_text(result, RunTotal::permanent_set, set, as_length);
+    answer.note = fmt::format(
+        "at {}, against the {}; largest plastic hinge {} {}", place,
+        has_tip   ? "clamp"
+        : is_open ? "chord"
+                  : "supports",
+        total_text(result, RunTotal::hinge_rotation, std::abs(hinge.rotation), as_rotation),
+        hinge_place == place ? "there" : "at " + hinge_place);
   } else if (!(first_yield_strain(input, result) < HUGE_VAL)) {
     answer.note = "the beam has no yield stress";
   } else if (!result.envelope.empty()) {
     const EnvelopeRow& most =
         where_largest(result, [](const EnvelopeRow& row) { return magnitude(row.strain); });
     const double percent = 100.0 / first_yield_strain(input, result);
-    Total strain{percent * magnitude(most.strain), error_of_total(result, "max_strain")};
+    Total strain{percent * magnitude(most.strain), error_of_total(result, RunTotal::max_strain)};
     if (strain.error) *strain.error *= percent;
     const std::string share =
         strain.error ? text_of(strain, as_ratio) : fmt::format("{:.3g}", strain.value);
@@ -205,7 +206,7 @@ void add_reactions(const Result& result, std::vector<Answer>& answers) {
     const bool at_first =
         first && (!last || sense * ((*first).*extreme).value >= sense * ((*last).*extreme).value);
     const auto& [force, time] = (at_first ? *first : *last).*extreme;
-    const char* name = force > 0.0 ? "reaction_along_N" : "reaction_against_N";
+    const auto name = force > 0.0 ? RunTotal::reaction_along : RunTotal::reaction_against;
     return fmt::format("{} at x = {} at {}",
                        has_errors ? text_of({force, error_of_total(result, name)}, as_force)
                                   : rough_text({force, {}}, as_force),
@@ -219,12 +220,12 @@ void add_reactions(const Result& result, std::vector<Answer>& answers) {
 Answer dent(const Result& result) {
   const SubImpact& last = result.sub_impacts.back();
   const std::string deepest =
-      total_text(result, "max_indentation_m", result.max_indentation, as_length);
+      total_text(result, RunTotal::max_indentation, result.max_indentation, as_length);
   if (!(last.residual_indentation > 0.0)) {
     return {"dent", "none", "the contact stays elastic, pressed in by at most " + deepest};
   }
   return {"dent",
-          total_text(result, "residual_indentation_m", last.residual_indentation, as_length),
+          total_text(result, RunTotal::residual_indentation, last.residual_indentation, as_length),
           "pressed in by at most " + deepest};
 }
 
@@ -257,11 +258,9 @@ Answer energy(const Result& result) {
   const ReadUnit unit = unit_for(largest, as_energy);
   const double initial = unit.per_si * result.used.initial_energy;
   const int digits_before = 1 + static_cast<int>(std::floor(std::log10(unit.per_si * largest)));
-  const auto error_of = [&](const char* name) {
-    return error_of_total(result, name).value_or(0.0);
-  };
-  const double error =
-      std::max(unit.per_si * error_of("dissipated_J"), initial * error_of("striker_energy_share"));
+  const auto error_of = [&](RunTotal name) { return error_of_total(result, name).value_or(0.0); };
+  const double error = std::max(unit.per_si * error_of(RunTotal::dissipated),
+                                initial * error_of(RunTotal::striker_energy_share));
   const auto rounding = rounding_of(error, digits_of_energies - digits_before);
   const int decimals =
       std::max(rounding ? rounding->decimals : 0, least_digits_of_energies - digits_before);
@@ -351,7 +350,7 @@ std::string contact_over_words(const Result& result) {
   }
   if (!result.sub_impacts.back().end) return "striker and beam are still in contact";
   if (const auto* flight = doubt_after_last(result)) {
-    return "after the last sub-impact there may be another: " + flight->reason;
+    return "after the last sub-impact there may be another: " + words_of(flight->reason);
   }
   const std::optional<ClosestApproach>& closest = result.closest_approach;
   if (!closest) return "the gap grows until the run ends, but no proof excludes a later contact";
@@ -381,7 +380,7 @@ std::vector<Answer> answers(const Case& input, const Result& result) {
     all.push_back(dent(result));
     add_contact_pressure(input, result, all);
   }
-  if (result.used.section != "rigid") all.push_back(permanent_set(input, result));
+  if (result.used.bends()) all.push_back(permanent_set(input, result));
   add_reactions(result, all);
   if (result.final_energies.taken_up() > 0.0) all.push_back(energy(result));
   if (!input.model_choice.empty()) all.push_back({"model", "chosen", input.model_choice});

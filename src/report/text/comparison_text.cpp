@@ -138,7 +138,8 @@ std::string matches_csv(const Comparison& comparison) {
   Columns<Match> columns = {{"method", [](const Match& m) { return m.run->setting.method; }},
                             {"reference_index", number(&MatchedPair::first)},
                             {"index", number(&MatchedPair::second)}};
-  const auto add = [&](const std::string& name, const std::string& unit, auto SubImpact::*member) {
+  const auto add = [&](const std::string& name, const std::string& unit, auto SubImpact::*member,
+                       bool has_difference) {
     using Value = std::optional<double>;
     const auto reference = [&comparison, member](const Match& m) {
       return m.pair.first ? Value(comparison.reference.sub_impacts[*m.pair.first].*member)
@@ -149,16 +150,16 @@ std::string matches_csv(const Comparison& comparison) {
     };
     columns.push_back({"reference_" + name + unit, reference});
     columns.push_back({name + unit, own});
-    if (unit != "_s") return;
+    if (!has_difference) return;
     columns.push_back({name + "_difference" + unit, [=](const Match& m) {
                          const Value here = own(m), there = reference(m);
                          return here && there ? Value(*here - *there) : Value();
                        }});
   };
-  add("start", "_s", &SubImpact::start);
-  add("end", "_s", &SubImpact::end);
-  add("peak_force", "_N", &SubImpact::peak_force);
-  add("impulse", "_Ns", &SubImpact::impulse);
+  add("start", "_s", &SubImpact::start, true);
+  add("end", "_s", &SubImpact::end, true);
+  add("peak_force", "_N", &SubImpact::peak_force, false);
+  add("impulse", "_Ns", &SubImpact::impulse, false);
   return csv_text(columns, matches);
 }
 
@@ -174,8 +175,8 @@ std::string model_table(const std::vector<ModelRun>& runs) {
     text += fmt::format(
         "{}: {}, largest force {}, striker {} at the end\n", run.name,
         counted(result.sub_impacts.size(), "sub-impact"),
-        total_text(result, "peak_force_N", result.max_force, as_force),
-        total_text(result, "striker_velocity_m_per_s", result.striker_velocity, as_velocity));
+        total_text(result, RunTotal::peak_force, result.max_force, as_force),
+        total_text(result, RunTotal::striker_velocity, result.striker_velocity, as_velocity));
     add_rows(run, runs.front(), text);
     text += '\n';
   }

@@ -45,14 +45,14 @@ std::string details(const Case& input, const Result& result) {
   const auto line = [&](const std::string& label, const std::string& words) {
     text += labelled(label, words);
   };
-  if (!result.envelope.empty() && result.used.section != "rigid") {
+  if (!result.envelope.empty() && result.used.bends()) {
     const auto size = [](const EnvelopeRow& row) {
       return std::max(row.moment.largest.value, -row.moment.smallest.value);
     };
     const EnvelopeRow& most = *std::ranges::max_element(result.envelope, {}, size);
     line("bending",
          fmt::format("moment up to {} at {:.4g} m",
-                     total_text(result, "max_moment_Nm", size(most), {"N m"}), most.position));
+                     total_text(result, RunTotal::max_moment, size(most), {"N m"}), most.position));
   }
   line("first yield", fmt::format("section {}, contact {}; {} of {} sections have yielded",
                                   time_or_never(result.first_section_yield),
@@ -92,7 +92,7 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
   for (const Answer& answer : answers(input, result)) {
     text += labelled(answer.name, answer.value + (answer.note.empty() ? "" : ": " + answer.note));
   }
-  if (result.error_estimate && !error_of_total(result, "impulse_Ns")) {
+  if (result.error_estimate && !error_of_total(result, RunTotal::impulse)) {
     line("errors", "a run beside did not complete, so errors of totals are not known");
   }
   if (result.error_estimate && result.error_estimate->finer_meshes) {

@@ -18,21 +18,19 @@ bool has_first_touch_alone(const Result& result) {
 }
 
 // How certain: "times of the certain ones to 2 us; <first reason why others are not>".
-std::string certain_text(const Result& result, double largest_error,
-                         const std::optional<std::size_t>& first_unresolved,
-                         const std::string& reason) {
-  if (!first_unresolved) {
+std::string certain_text(const Result& result, const ErrorOfTimes& found) {
+  if (!found.first_unresolved) {
     return has_first_touch_alone(result)
                ? "no event time up to " + duration_text(result.outcome.time) +
                      " but the first touch, which is exact"
-               : fmt::format("all times to {} up to {}", error_text(largest_error),
+               : fmt::format("all times to {} up to {}", error_text(found.largest_error),
                              duration_text(result.outcome.time));
   }
-  const std::string which = place_of_doubt(result, *first_unresolved, reason);
-  if (result.n_certain() == std::size_t{0})
-    return fmt::format("no sub-impact is certain; {}: {}", which, reason);
-  return fmt::format("times of the certain ones to {}; {}: {}", error_text(largest_error), which,
-                     reason);
+  return fmt::format("{}; {}: {}",
+                     result.n_certain() == std::size_t{0}
+                         ? "no sub-impact is certain"
+                         : "times of the certain ones to " + error_text(found.largest_error),
+                     place_of_doubt(result, found), words_of(found.reason));
 }
 
 std::string first_failure_text(const Outcome& outcome) {
@@ -60,20 +58,19 @@ std::string finer_meshes_words(const Result& result) {
                         error_text(std::abs(change)), change < 0.0 ? "earlier" : "later");
   }
   text += "; errors of times are those on this mesh, errors of totals include it";
-  return finer.doubt.empty() ? text : text + "; " + finer.doubt;
+  return finer.doubt ? text + "; " + words_of(finer.doubt) : text;
 }
 
 std::vector<std::pair<std::string, std::string>> error_part_words(const Result& result) {
   const ErrorEstimate& estimate = *result.error_estimate;
   std::vector<std::pair<std::string, std::string>> parts;
   for (const ErrorEstimate::Part& part : estimate.parts) {
-    const bool is_repeated = part.first_unresolved == estimate.first_unresolved &&
-                             part.reason == estimate.reason && !part.reason.empty();
-    const std::string words =
-        is_repeated ? std::string("as above")
-                    : certain_text(result, part.largest_error, part.first_unresolved, part.reason);
-    parts.emplace_back(part.name + " error",
-                       fmt::format("{} (runs beside: {})", words, part.refined_run));
+    const bool is_repeated = part.first_unresolved == estimate.first_unresolved && part.reason &&
+                             part.reason == estimate.reason;
+    parts.emplace_back(
+        fmt::format("{} error", to_string(part.source)),
+        fmt::format("{} (runs beside: {})", is_repeated ? "as above" : certain_text(result, part),
+                    part.refined_run));
   }
   return parts;
 }
@@ -98,7 +95,7 @@ std::string error_words(const Result& result) {
   }
   const ErrorEstimate& estimate = *result.error_estimate;
   if (result.sub_impacts.empty() && result.all_certain()) return {};
-  return certain_text(result, estimate.largest_error, estimate.first_unresolved, estimate.reason);
+  return certain_text(result, estimate);
 }
 
 std::string certain_words(const Result& result) {
@@ -110,7 +107,7 @@ std::string certain_words(const Result& result) {
     return fmt::format(", {} certain{}, which may not be all", *n, of_mesh);
   }
   // What the error of the number has besides those that are not certain.
-  const double more = error_of_total(result, "sub_impacts").value_or(0.0) -
+  const double more = error_of_total(result, RunTotal::sub_impacts).value_or(0.0) -
                       static_cast<double>(result.sub_impacts.size() - *n);
   return fmt::format(", {} certain{}{}", *n, of_mesh,
                      more > 0.0 ? fmt::format(", {:.0f} more possible", more) : "");
@@ -139,8 +136,9 @@ std::string tolerance_words(const ToleranceOutcome& tolerance, const Result& res
     text += is_known ? fmt::format("not met; {} reached {}", error_text(tolerance.reached), range)
                      : std::string("not met; the error reached is not known");
   }
-  if (!tolerance.reason.empty())
-    text += (tolerance.met && !to_the_end ? "; beyond: " : "; ") + tolerance.reason;
+  if (tolerance.reason)
+    text += (tolerance.met && !to_the_end ? "; beyond: " : "; ") + words_of(tolerance.reason);
+  if (tolerance.obstacle) text += "; " + words_of(tolerance.obstacle);
   if (!tolerance.key.empty()) text += "; free " + tolerance.key;
   return text;
 }
@@ -237,7 +235,7 @@ std::string sub_impact_table(const Result& result, bool fold) {
     add_line(line);
   }
   if (const auto* flight = doubt_after_last(result)) {
-    add_line("after the last one there may be another: " + flight->reason);
+    add_line("after the last one there may be another: " + words_of(flight->reason));
   }
   return text;
 }

@@ -351,15 +351,14 @@ std::string count_text(const Total& count) {
              : fmt::format("{:.0f} +- {:.0f}", count.value, error);
 }
 
-std::optional<double> error_of_total(const Result& result, std::string_view name) {
+std::optional<double> error_of_total(const Result& result, RunTotal name) {
   if (!result.error_estimate) return std::nullopt;
   const auto& totals = result.error_estimate->totals;
   const auto found = std::ranges::find(totals, name, &NamedTotal::name);
   return found == totals.end() ? std::nullopt : found->total.error;
 }
 
-std::string total_text(const Result& result, const char* name, double value,
-                       const Measure& measure) {
+std::string total_text(const Result& result, RunTotal name, double value, const Measure& measure) {
   if (!result.error_estimate) return plain_text(value, measure);
   const std::optional<double> error = error_of_total(result, name);
   const bool is_odd = !error && !result.error_estimate->totals.empty();
@@ -371,15 +370,13 @@ const ErrorEstimate::UncertainFlight* doubt_after_last(const Result& result) {
   return result.error_estimate->doubt_after(result.sub_impacts.size() - 1);
 }
 
-std::string place_of_doubt(const Result& result, std::size_t first_unresolved,
-                           const std::string& reason) {
+std::string place_of_doubt(const Result& result, const ErrorOfTimes& found) {
+  const std::size_t i = *found.first_unresolved;
   if (result.sub_impacts.empty()) return "a touch";
-  if (first_unresolved >= result.sub_impacts.size()) return "after the last sub-impact";
-  const ErrorEstimate::UncertainFlight* flight =
-      result.error_estimate->doubt_after(first_unresolved - 1);
-  return flight && reason.ends_with(flight->reason)
-             ? fmt::format("after sub-impact {}", first_unresolved)
-             : fmt::format("sub-impact {}", first_unresolved + 1);
+  if (i >= result.sub_impacts.size()) return "after the last sub-impact";
+  const ErrorEstimate::UncertainFlight* flight = result.error_estimate->doubt_after(i - 1);
+  return flight && found.reason == flight->reason ? fmt::format("after sub-impact {}", i)
+                                                  : fmt::format("sub-impact {}", i + 1);
 }
 
 }  // namespace subimpact

@@ -96,20 +96,18 @@ int decimals_of_times(const Result& result, const ReadUnit& unit);
 /// exceeds it.
 std::string count_text(const Total& count);
 
-/// The error of a total, by its name in summary.json; none where it is not known.
-std::optional<double> error_of_total(const Result& result, std::string_view name);
+/// The error of a total; none where it is not known.
+std::optional<double> error_of_total(const Result& result, RunTotal name);
 
 /// A total of the run with its error: "8796.3 +- 0.8 N"; without an error estimate all digits of
-/// the measure. `name`: as in summary.json.
-std::string total_text(const Result& result, const char* name, double value,
-                       const Measure& measure);
+/// the measure.
+std::string total_text(const Result& result, RunTotal name, double value, const Measure& measure);
 
 /// The flight after the last sub-impact, if it may hold another one; else null.
 const ErrorEstimate::UncertainFlight* doubt_after_last(const Result& result);
 
 /// Where something is not certain: "sub-impact 3", or the flight before it: "after sub-impact 2",
-/// "after the last sub-impact". `first_unresolved`, `reason`: of the error estimate or of a part.
-std::string place_of_doubt(const Result& result, std::size_t first_unresolved,
-                           const std::string& reason);
+/// "after the last sub-impact". `found`: the error estimate or a part, with a first doubt.
+std::string place_of_doubt(const Result& result, const ErrorOfTimes& found);
 
 }  // namespace subimpact

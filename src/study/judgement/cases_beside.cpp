@@ -49,7 +49,7 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
     if (!other || (mesh_count(other->input) < mesh_count(input)) != (size < 1.0)) {
       return std::nullopt;
     }
-    CaseBeside beside{other->input, "mesh and time", other->description};
+    CaseBeside beside{other->input, ErrorSource::mesh_and_time, other->description};
     const double ratio = static_cast<double>(mesh_count(input)) / mesh_count(beside.input);
     // The difference of runs on nearly equal meshes would be taken many times. At the order 1 a
     // part of the difference is chance.
@@ -109,7 +109,7 @@ void keep_states(const std::vector<CaseBeside>& cases,
 }  // namespace
 
 std::vector<CaseBeside> cases_beside_in_time(const Case& input) {
-  CaseBeside beside{input, "time", {}};
+  CaseBeside beside{input, ErrorSource::time, {}};
   beside.input.output = output_beside(input);
   SolverOptions& solver = beside.input.solver;
   if (has_fixed_step(input)) {
@@ -138,10 +138,9 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
   }
   if (!all.empty()) return all;
   all = cases_beside_in_time(input);
-  if (all.empty()) return all;
   // If no other mesh allows the strike, effects that the mesh does not show still count as
   // uncertain.
-  if (mesh_order(input)) all.front().part = "mesh and time";
+  if (mesh_order(input)) all.front().source = ErrorSource::mesh_and_time;
   return all;
 }
 
@@ -150,7 +149,7 @@ std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
   std::optional<CaseBeside> mesh = on_finer_cells(input);
   if (!mesh) mesh = in_mesh_and_time(sizes[1], input);
   if (mesh) {
-    mesh->part = "mesh";
+    mesh->source = ErrorSource::mesh;
     mesh->of_rows = false;
     all.push_back(std::move(*mesh));
   }
@@ -162,13 +161,13 @@ std::vector<CaseBeside> cases_beside_by_part(const Case& input) {
   for (const double size : {sizes[0], sizes[1], far_size}) {
     std::optional<CaseBeside> beside = on_mesh_of(size, input);
     if (!beside) continue;
-    beside->part = "mesh";
+    beside->source = ErrorSource::mesh;
     beside->of_existence = size != far_size;
     all.push_back(std::move(*beside));
   }
   const bool has_layers = descriptor_of(input.model.section).has_layers && !input.parts.section;
   if (has_layers && may_yield(input)) {
-    CaseBeside exact{input, "layers", "the exact section"};
+    CaseBeside exact{input, ErrorSource::layers, "the exact section"};
     exact.input.output = output_beside(input);
     exact.input.model.section = SectionKind::exact;
     all.push_back(std::move(exact));

@@ -75,9 +75,9 @@ Reference compute_reference(const Case& input, double largest_error, const Progr
                                       reference_tolerance, second, reference_tolerance);
 
   Result result;
-  const std::vector<RunBeside> beside =
-      simulate_beside(reference.input, {{accurate(input, second), "time", reference.description}},
-                      jobs, progress, nullptr, result);
+  const std::vector<RunBeside> beside = simulate_beside(
+      reference.input, {{accurate(input, second), ErrorSource::time, reference.description}}, jobs,
+      progress, nullptr, result);
   require_completed(result, first);
   for (const RunBeside& other : beside) require_completed(other.result, second);
   if (result.outcome.kind == OutcomeKind::stopped) {

@@ -1,13 +1,9 @@
 #include "study/judgement/judge.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "case/counted.h"
 #include "numerics/median.h"
-#include "numerics/units.h"
 #include "study/judgement/mesh_resolution.h"
 #include "subimpact/study/judgement/match.h"
 
@@ -28,11 +24,13 @@ constexpr std::size_t half_window = 3;
 constexpr double near_share = 0.25;
 constexpr double rounding_of_times = 1e-14;  // relative
 
+using Kind = Reason::Kind;
+
 }  // namespace
 
 bool of_mesh(std::span<const RunBeside> beside) {
   return std::ranges::any_of(beside, [](const RunBeside& other) {
-    return other.of.of_rows && other.of.part.starts_with("mesh");
+    return other.of.of_rows && includes_mesh(other.of.source);
   });
 }
 
@@ -106,51 +104,43 @@ double Judge::least_force_error(std::size_t i) const {
   return least_indentation_error(i) * steepest * all_[i].peak_force / depth(i);
 }
 
-std::string Judge::doubt_of(std::size_t i, double strictness) const {
+std::optional<Reason> Judge::doubt_of(std::size_t i, double strictness) const {
   for (const std::size_t k : of_existence_) {
     const Partner& partner = partners_[k].of[i];
     if (partner.there && partner.alone) continue;
-    if (stopped_before(k, run_.end_of(all_[i]))) return stopped_words(k);
-    return (partner.there ? "it is split or merged or does not end with "
-                          : "it does not exist with ") +
-           beside_[k].of.description;
+    if (stopped_before(k, run_.end_of(all_[i]))) return reason_beside(Kind::stopped_beside, k);
+    return reason_beside(partner.there ? Kind::split_beside : Kind::missing_beside, k);
   }
   const SubImpact& here = all_[i];
-  const auto small = [](const char* what, double length, double error, const char* unit) {
-    return fmt::format("{} is {} {} with an error of {} {}", what, with_significant(length, 2),
-                       unit, with_significant(error, 2), unit);
-  };
   const double touch = strictness * delta(2 * i);
-  if (!(touch < depth(i))) return small("its indentation", um * depth(i), um * touch, "um");
+  if (!(touch < depth(i))) return Reason{Kind::indentation, {}, depth(i), touch};
   for (const std::size_t first : {i - 1, i}) {
     if (first >= all_.size() || first + 1 >= all_.size() || !all_[first].end) continue;
-    const char* what = first == i ? "the opening after it" : "the opening before it";
     const double error = strictness * delta(2 * first + 1);
-    if (!(error < opening(first))) return small(what, um * opening(first), um * error, "um");
+    if (error < opening(first)) continue;
+    return Reason{
+        first == i ? Kind::opening_after : Kind::opening_before, {}, opening(first), error};
   }
-  if (std::string joined = doubt_by_joining(i); !joined.empty()) return joined;
+  if (auto joined = doubt_by_joining(i)) return joined;
   const double start_error = time_error(2 * i);
   const double end_error = here.end ? time_error(2 * i + 1) : 0.0;
   for (const LengthBeside& beside : lengths_beside(all_, i)) {
-    using Kind = LengthBeside::Kind;
     const double error = strictness * ((beside.kind == Kind::separation_after ? 0.0 : start_error) +
                                        (beside.kind == Kind::separation_before ? 0.0 : end_error));
-    if (error > beside.length) {
-      return small(beside.words, us * beside.length, us * error, "us");
-    }
+    if (error > beside.length) return Reason{beside.kind, {}, beside.length, error};
   }
   return doubt_by_near_miss(NearMissKind::opening, i, strictness);
 }
 
-std::string Judge::doubt_of_flight(std::size_t i) const {
+std::optional<Reason> Judge::doubt_of_flight(std::size_t i) const {
   if (!all_[i].end) return {};
   for (const std::size_t k : of_existence_) {
     for (const SubImpact* extra : partners_[k].extra) {
       if (extra->start < flight_end(i) && beside_[k].result.end_of(*extra) > *all_[i].end) {
-        return "there is another one with " + beside_[k].of.description;
+        return reason_beside(Kind::another_beside, k);
       }
     }
-    if (stopped_before(k, flight_end(i))) return stopped_words(k);
+    if (stopped_before(k, flight_end(i))) return reason_beside(Kind::stopped_beside, k);
   }
   return doubt_by_near_miss(NearMissKind::closing, i, 1.0);
 }
@@ -160,9 +150,9 @@ bool Judge::stopped_before(std::size_t k, double time) const {
   return !until.completed() && until.time <= time;
 }
 
-std::string Judge::stopped_words(std::size_t k) const {
-  return fmt::format("the run with {} stopped before its end, at {:.6g} us",
-                     beside_[k].of.description, us * beside_[k].result.outcome.time);
+Reason Judge::reason_beside(Kind kind, std::size_t k) const {
+  const auto& [of, result] = beside_[k];
+  return {.kind = kind, .what = of.description, .time = result.outcome.time};
 }
 
 double Judge::approach_error() const {
@@ -299,30 +289,25 @@ double Judge::margin_error(const NearMiss& here, double length, double delta) co
   return error;
 }
 
-std::string Judge::doubt_by_joining(std::size_t i) const {
+std::optional<Reason> Judge::doubt_by_joining(std::size_t i) const {
   const double limit = input_.output.opening;
   if (!(limit > 0.0)) return {};
-  const auto words = [&](const char* what, double opening, double error) {
-    return fmt::format(
-        "{} is {:.3g} um with an error of {:.2g} um, and contacts parted by less "
-        "than {:.4g} um are joined",
-        what, um * opening, um * error, um * limit);
-  };
   for (const std::size_t first : {i - 1, i}) {
     if (first >= all_.size() || first + 1 >= all_.size()) continue;
     const double error = opening_error(first);
     // Not known where other contacts follow in all runs: then the flight is doubted.
     if (!(error < unknown) || *all_[first].opening - error >= limit) continue;
-    return words(first == i ? "the opening after it" : "the opening before it",
-                 *all_[first].opening, error);
+    const Kind kind = first == i ? Kind::joined_after : Kind::joined_before;
+    return Reason{kind, {}, *all_[first].opening, error, limit};
   }
   const Value inner = [](const SubImpact& s) { return s.inner_opening.value_or(0.0); };
   const double error = value_safety * runs_factor_ * difference(i, inner).value_or(0.0);
   if (*inner(all_[i]) + error < limit) return {};
-  return words("the largest opening within it", *inner(all_[i]), error);
+  return Reason{Kind::joined_within, {}, *inner(all_[i]), error, limit};
 }
 
-std::string Judge::doubt_by_near_miss(NearMissKind kind, std::size_t i, double strictness) const {
+std::optional<Reason> Judge::doubt_by_near_miss(NearMissKind kind, std::size_t i,
+                                                double strictness) const {
   const bool opens = kind == NearMissKind::opening;
   const double start = opens ? all_[i].start : *all_[i].end;
   const double end = opens ? run_.end_of(all_[i]) : flight_end(i);
@@ -332,9 +317,8 @@ std::string Judge::doubt_by_near_miss(NearMissKind kind, std::size_t i, double s
         strictness * margin_error(here, end - start, delta(opens ? 2 * i : 2 * i + 1));
     // A contact that opens by less than the limit stays one.
     if (here.margin > error - (opens ? input_.output.opening : 0.0)) continue;
-    return fmt::format("at {:.6g} us the {}: {} um are left with an error of {} um", us * here.time,
-                       opens ? "contact nearly opens" : "gap nearly closes",
-                       with_significant(um * here.margin, 2), with_significant(um * error, 2));
+    const Kind found = opens ? Kind::nearly_opens : Kind::nearly_closes;
+    return Reason{found, {}, here.margin, error, 0.0, here.time};
   }
   return {};
 }

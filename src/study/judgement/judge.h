@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "subimpact/study/judgement/judgement.h"
@@ -44,11 +43,11 @@ class Judge {
   double least_indentation_error(std::size_t i) const;
   double least_force_error(std::size_t i) const;
 
-  /// Why a sub-impact is not certain; empty if it is. `strictness` multiplies errors.
-  std::string doubt_of(std::size_t i, double strictness) const;
+  /// Why a sub-impact is not certain; none if it is. `strictness` multiplies errors.
+  std::optional<Reason> doubt_of(std::size_t i, double strictness) const;
 
-  /// Why the flight after a sub-impact may hold another one; empty if it does not.
-  std::string doubt_of_flight(std::size_t i) const;
+  /// Why the flight after a sub-impact may hold another one; none if it does not.
+  std::optional<Reason> doubt_of_flight(std::size_t i) const;
 
   /// Error (m) of the closest approach after the last sub-impact, or in a run without sub-impacts.
   double approach_error() const;
@@ -94,16 +93,18 @@ class Judge {
   // How far the gap opens after a sub-impact, m: a parabola with the rates at both ends.
   double opening(std::size_t i) const;
   double flight_end(std::size_t i) const;
-  // Whether run k beside this one stopped before a time (s), and the words that say so.
+  // Whether run k beside this one stopped before a time (s).
   bool stopped_before(std::size_t k, double time) const;
-  std::string stopped_words(std::size_t k) const;
+  // Run k shows something else, or stopped.
+  Reason reason_beside(Reason::Kind kind, std::size_t k) const;
   // Error of the margin of a near miss, within a contact or flight of that length: from the
   // differences of the margin in the runs beside, or from the error of the indentation if one of
   // them lacks this near miss.
   double margin_error(const NearMiss& here, double length, double delta) const;
   // Whether errors leave open if the contacts before and after an opening count as one.
-  std::string doubt_by_joining(std::size_t i) const;
-  std::string doubt_by_near_miss(NearMissKind kind, std::size_t i, double strictness) const;
+  std::optional<Reason> doubt_by_joining(std::size_t i) const;
+  std::optional<Reason> doubt_by_near_miss(NearMissKind kind, std::size_t i,
+                                           double strictness) const;
 
   const Case& input_;
   const Result& run_;

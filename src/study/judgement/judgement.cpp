@@ -37,18 +37,25 @@ constexpr std::optional<double> SubImpact::*errors[] = {&SubImpact::start_error,
                                                         &SubImpact::striker_velocity_error,
                                                         &SubImpact::opening_error};
 
-std::optional<double>* part_of(SubImpact& s, const std::string& name) {
-  if (name == "time") return &s.error_time;
-  if (name == "mesh") return &s.error_mesh;
-  return name == "layers" ? &s.error_layers : nullptr;
+std::optional<double>* part_of(SubImpact& s, ErrorSource source) {
+  switch (source) {
+    case ErrorSource::time:
+      return &s.error_time;
+    case ErrorSource::mesh:
+      return &s.error_mesh;
+    case ErrorSource::layers:
+      return &s.error_layers;
+    default:
+      return nullptr;
+  }
 }
 
-void add_errors(const Judge& judge, std::size_t i, const std::string& part, SubImpact& s) {
+void add_errors(const Judge& judge, std::size_t i, ErrorSource source, SubImpact& s) {
   const double start = judge.time_error(2 * i);
   const double end = s.end ? judge.time_error(2 * i + 1) : 0.0;
   add_error(s.start_error, start);
   if (s.end) add_error(s.end_error, end);
-  if (auto* error = part_of(s, part)) add_error(*error, std::max(start, end));
+  if (auto* error = part_of(s, source)) add_error(*error, std::max(start, end));
   add_error(s.peak_force_error,
             judge.value_error(i, &SubImpact::peak_force, judge.least_force_error(i)));
   add_error(s.impulse_error, judge.value_error(i, &SubImpact::impulse));
@@ -66,7 +73,7 @@ std::string descriptions_of(std::span<const RunBeside> beside) {
 }
 
 // The first of the sub-impacts and flights that are not certain.
-void set_first_unresolved(ErrorEstimate::Part& part, std::size_t i, const std::string& reason) {
+void set_first_unresolved(ErrorEstimate::Part& part, std::size_t i, const Reason& reason) {
   if (part.first_unresolved) return;
   part.first_unresolved = i;
   part.reason = reason;
@@ -76,24 +83,24 @@ ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const R
                                ErrorEstimate& estimate) {
   const Judge judge(input, run, beside);
   ErrorEstimate::Part part;
-  part.name = beside.front().of.part;
+  part.source = beside.front().of.source;
   part.refined_run = descriptions_of(beside);
   double strictness = 1.0;
   for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
     SubImpact& s = run.sub_impacts[i];
     const SubImpact& before = run.sub_impacts[i > 0 ? i - 1 : 0];
     if (s.zone != before.zone || s.subzone != before.subzone) strictness = 1.0;
-    add_errors(judge, i, part.name, s);
-    if (const std::string doubt = judge.doubt_of(i, strictness); !doubt.empty()) {
+    add_errors(judge, i, part.source, s);
+    if (const auto doubt = judge.doubt_of(i, strictness)) {
       strictness = after_uncertain;
       s.certain = false;
-      if (s.doubt.empty()) s.doubt = doubt;
+      if (!s.doubt) s.doubt = doubt;
       s.probability = std::min(*s.probability, judge.probability(i));
-      set_first_unresolved(part, i, doubt);
+      set_first_unresolved(part, i, *doubt);
     }
-    if (std::string flight = judge.doubt_of_flight(i); !flight.empty()) {
-      set_first_unresolved(part, i + 1, flight);
-      if (!estimate.doubt_after(i)) estimate.uncertain_flights.push_back({i, std::move(flight)});
+    if (const auto flight = judge.doubt_of_flight(i)) {
+      set_first_unresolved(part, i + 1, *flight);
+      if (!estimate.doubt_after(i)) estimate.uncertain_flights.push_back({i, *flight});
     }
   }
   if (run.closest_approach) add_error(run.closest_approach->error, judge.approach_error());
@@ -115,11 +122,11 @@ bool is_over(const Case& input, const Result& run, std::span<const RunBeside> be
 }
 
 // Why the mesh does not show sub-impacts, whatever runs agree on: of the first that it does not.
-std::string first_mesh_doubt(const Case& input, const Result& run) {
-  std::string doubt = mesh_doubt(input, run.used);
-  for (std::size_t i = 0; i < run.sub_impacts.size() && doubt.empty(); ++i) {
+std::optional<Reason> first_mesh_doubt(const Case& input, const Result& run) {
+  std::optional<Reason> doubt = mesh_doubt(input, run.used);
+  for (std::size_t i = 0; i < run.sub_impacts.size() && !doubt; ++i) {
     doubt = unresolved_contact(input, run, i);
-    if (!doubt.empty()) doubt = fmt::format("sub-impact {}: {}", i + 1, doubt);
+    if (doubt) doubt->sub_impact = i;
   }
   return doubt;
 }
@@ -156,28 +163,29 @@ ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
 }
 
 // Why the steps do not show sub-impacts: runs so loose share what they miss.
-std::string tolerance_doubt(const SolverOptions& solver) {
+std::optional<Reason> tolerance_doubt(const SolverOptions& solver) {
   const bool has_tolerance = !solver.step && solver.method != Method::central_difference;
   if (!has_tolerance || solver.rtol <= loosest_rtol) return {};
-  return fmt::format("solver.rtol = {:.2g} is too loose for runs to show each other's errors",
-                     solver.rtol);
+  return Reason{Reason::Kind::loose_tolerance, {}, solver.rtol};
 }
 
 // Sub-impacts that mesh or steps do not show, whatever runs agree on. `about_mesh`: runs beside
 // have other meshes.
 void doubt_unresolved(const Case& input, bool about_mesh, Result& run, ErrorEstimate& estimate) {
-  const std::string of_steps = tolerance_doubt(input.solver);
-  const std::string of_mesh = about_mesh ? mesh_doubt(input, run.used) : "";
+  const std::optional<Reason> of_steps = tolerance_doubt(input.solver);
+  const std::optional<Reason> of_mesh =
+      about_mesh ? mesh_doubt(input, run.used) : std::optional<Reason>();
   for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
     SubImpact& s = run.sub_impacts[i];
-    std::string doubt = of_steps.empty() ? of_mesh : of_steps;
-    if (doubt.empty() && about_mesh) doubt = unresolved_contact(input, run, i);
-    if (doubt.empty()) continue;
+    std::optional<Reason> doubt = of_steps ? of_steps : of_mesh;
+    if (!doubt && about_mesh) doubt = unresolved_contact(input, run, i);
+    if (!doubt) continue;
     s.certain = false;
     s.doubt = doubt;
     s.probability = std::min(*s.probability, 0.5);
     for (ErrorEstimate::Part& part : estimate.parts) {
-      const bool is_meant = part.name.starts_with(of_steps.empty() ? "mesh" : "time");
+      const bool is_meant =
+          of_steps ? part.source == ErrorSource::time : includes_mesh(part.source);
       if (!is_meant || part.first_unresolved.value_or(i + 1) <= i) continue;
       part.first_unresolved = i;
       part.reason = doubt;
@@ -194,7 +202,7 @@ void set_largest_errors(Result& run, ErrorEstimate& estimate) {
     include(estimate.largest_error, s.start_error);
     include(estimate.largest_error, s.end_error);
     for (ErrorEstimate::Part& part : estimate.parts) {
-      const auto* error = part_of(s, part.name);
+      const auto* error = part_of(s, part.source);
       include(part.largest_error, error ? *error : s.start_error);
       if (!error) include(part.largest_error, s.end_error);
     }
@@ -206,7 +214,7 @@ void find_first_unresolved(const Result& run, std::span<const RunBeside> beside,
   for (const auto& [of, other] : beside) {
     if (!run.sub_impacts.empty() || other.sub_impacts.empty() || !of.of_existence) continue;
     estimate.first_unresolved = 0;
-    estimate.reason = "there is one with " + of.description;
+    estimate.reason = Reason{Reason::Kind::one_beside, of.description};
   }
   for (std::size_t i = 0; i < run.sub_impacts.size() && !estimate.first_unresolved; ++i) {
     if (!*run.sub_impacts[i].certain) {
@@ -235,13 +243,13 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
   if (run.closest_approach) run.closest_approach->error.reset();
   for (auto first = beside.begin(); first != beside.end();) {
     const auto last = std::find_if(first, beside.end(), [&](const RunBeside& other) {
-      return other.of.part != first->of.part;
+      return other.of.source != first->of.source;
     });
     if (!first->of.of_rows) {
       estimate.finer_meshes = finer_meshes(input, run, *first);
     } else {
       estimate.parts.push_back(judge_part(input, run, {first, last}, estimate));
-      if (first->of.part == "mesh") set_mesh_limits(input, run, {first, last});
+      if (first->of.source == ErrorSource::mesh) set_mesh_limits(input, run, {first, last});
     }
     first = last;
   }

@@ -117,7 +117,7 @@ std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>
 }
 
 std::vector<LengthBeside> lengths_beside(const std::vector<SubImpact>& all, std::size_t number) {
-  using Kind = LengthBeside::Kind;
+  using Kind = Reason::Kind;
   const SubImpact& here = all[number];
   std::vector<LengthBeside> list;
   if (here.end) list.push_back({Kind::duration, "its duration", *here.end - here.start});

@@ -1,12 +1,9 @@
 #include "study/judgement/mesh_resolution.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "numerics/units.h"
 #include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
@@ -133,7 +130,7 @@ double shortest_contact_shown(const Case& input) {
   return std::pow(beam.length / cells_over_length(input), 2) / wave_constant(beam);
 }
 
-std::string unresolved_contact(const Case& input, const Result& result, std::size_t i) {
+std::optional<Reason> unresolved_contact(const Case& input, const Result& result, std::size_t i) {
   if (!mesh_order(input)) return {};
   const auto& all = result.sub_impacts;
   const SubImpact& here = all[i];
@@ -141,20 +138,19 @@ std::string unresolved_contact(const Case& input, const Result& result, std::siz
     const double needed =
         parts_that_resolve(input, result.used.contact_time) / refinement_at_strike(input);
     if (mesh_count(input) >= needed) return {};
-    return fmt::format(
-        "it lasts to the end and {} parts of the mesh do not resolve the bending "
-        "waves of contacts as short as {:.2g} us as {:.0f} would",
-        mesh_count(input), us * result.used.contact_time, std::ceil(needed));
+    return Reason{.kind = Reason::Kind::unended_contact,
+                  .value = 1.0 * mesh_count(input),
+                  .limit = std::ceil(needed),
+                  .time = result.used.contact_time};
   }
   const double shortest = shortest_contact_shown(input);
   const double contact = *here.end - here.start;
   const double separation = i + 1 < all.size() ? all[i + 1].start - *here.end : shortest;
   if (contact >= shortest && separation >= shortest) return {};
-  return fmt::format(
-      "{} {:.2g} us and the mesh shows none shorter than {:.2g} us: it does not "
-      "resolve the bending waves",
-      contact < shortest ? "its contact lasts" : "the separation after it lasts",
-      us * std::min(contact, separation), us * shortest);
+  using enum Reason::Kind;
+  return Reason{.kind = contact < shortest ? short_contact : short_separation,
+                .value = std::min(contact, separation),
+                .limit = shortest};
 }
 
 int parts_that_take_strike(const Case& input) {
@@ -167,16 +163,15 @@ int parts_at_first(const Case& input, const ResolvedSettings& used) {
                   chosen_parts(input, parts));
 }
 
-std::string mesh_doubt(const Case& input, const ResolvedSettings& used) {
+std::optional<Reason> mesh_doubt(const Case& input, const ResolvedSettings& used) {
   if (!mesh_order(input)) return {};
   const double mass_ratio = mass_of_mesh(input, used) / input.scene.bodies().moving_mass();
   if (mass_ratio > largest_mass_ratio) {
-    return fmt::format("the part of the mesh under the striker is {:.2g} times as heavy as it",
-                       mass_ratio);
+    return Reason{Reason::Kind::heavy_part, {}, mass_ratio};
   }
   const double to_end = distance_to_end(input) * cells_over_length(input);
   if (strikes_end(input) || to_end >= fewest_cells_to_end) return {};
-  return fmt::format("the strike is {:.2g} cells of the mesh from an end", to_end);
+  return Reason{Reason::Kind::near_end, {}, to_end};
 }
 
 double free_end_error(const Case& input, double contact_time, double time) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
+#include <optional>
 
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
@@ -38,16 +38,16 @@ int parts_at_first(const Case& input, const ResolvedSettings& used);
 /// beam. 0 for a rigid beam and for meshes of the caller's own.
 double shortest_contact_shown(const Case& input);
 
-/// Why a sub-impact is not shown by the mesh, empty if it is: its contact, or the separation after
+/// Why a sub-impact is not shown by the mesh, none if it is: its contact, or the separation after
 /// it, is too short; or it lasts to the end, on a mesh with fewer than parts_that_resolve, where
 /// two runs may both have missed its end.
-std::string unresolved_contact(const Case& input, const Result& result, std::size_t i);
+std::optional<Reason> unresolved_contact(const Case& input, const Result& result, std::size_t i);
 
-/// Why the mesh shows no sub-impact rightly, empty if it may: what it adds to the mass that the
+/// Why the mesh shows no sub-impact rightly, none if it may: what it adds to the mass that the
 /// striker moves at once is as heavy as a fifth of the striker, or the strike is less than six
 /// cells from an end. A beam with rotary inertia and without shear opposes a mass of its own to a
 /// blow, 2 rho A r away from its ends.
-std::string mesh_doubt(const Case& input, const ResolvedSettings& used);
+std::optional<Reason> mesh_doubt(const Case& input, const ResolvedSettings& used);
 
 /// The first-order part of the error that cells with free ends leave in an event time: s, for an
 /// event at `time` (s) of a run with this `contact_time` (s, ResolvedSettings). 0 for other meshes,

@@ -15,8 +15,8 @@ namespace {
 constexpr double usual_safety = 2.7;
 constexpr double safety_of_beam_velocity = 3.5;
 constexpr double safety_of_dissipated = 4.0;
-constexpr double safety_of_largest = 5.0;  // of the force and of the indentation
-constexpr double as_it_is = 0.0;  // safety factor of counts: the error is the difference itself
+constexpr double safety_of_largest = 5.0;          // of the force and of the indentation
+constexpr std::nullopt_t as_it_is = std::nullopt;  // of counts: the error is the difference itself
 // Relative error of the largest strain above which no error is stated: where a hinge forms, strains
 // grow without limit on finer meshes.
 constexpr double largest_error_of_strain = 0.5;
@@ -29,9 +29,9 @@ enum class From { every_run, shapes };
 
 // `v0`: velocity of the strike, m/s.
 struct Quantity {
-  const char* name;
+  RunTotal name;
   double (*value)(const Result& run, double v0);
-  double safety = usual_safety;
+  std::optional<double> safety = usual_safety;
   From from = From::every_run;
   double largest_share = HUGE_VAL;  // of an error in the value; none is stated beyond
   // Set for an extreme along the beam: runs are compared at the instants that they share, and the
@@ -49,45 +49,47 @@ struct Quantity {
 using Run = const Result&;
 // clang-format off
 const Quantity quantities[] = {
-    {"zones", [](Run run, double) { return run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone; }, as_it_is},
-    {"striker_velocity_m_per_s", [](Run run, double) { return run.striker_velocity; }},
-    {"beam_mean_velocity_m_per_s", [](Run run, double) { return run.beam_mean_velocity; }, safety_of_beam_velocity},
-    {"restitution", [](Run run, double) { return run.restitution.value_or(NAN); }},
-    {"impulse_Ns", [](Run run, double) { return run.impulse(); }},
-    {"peak_force_N", [](Run run, double) { return run.max_force; }, safety_of_largest},
-    {"max_indentation_m", [](Run run, double) { return run.max_indentation; }, safety_of_largest},
-    {"residual_indentation_m", [](Run run, double) { return run.sub_impacts.empty() ? NAN : run.sub_impacts.back().residual_indentation; }},
-    {"max_displacement_m", [](Run run, double) { return run.peaks.displacement.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::displacement, &EnvelopeRow::displacement},
-    {"max_moment_Nm", [](Run run, double) { return run.peaks.moment.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::moment, &EnvelopeRow::moment},
-    {"max_strain", [](Run run, double) { return run.peaks.strain.largest; }, usual_safety, From::shapes, largest_error_of_strain, &FieldPeaks::strain, &EnvelopeRow::strain},
-    {"reaction_along_N", [](Run run, double) { return run.peaks.reaction_along.largest > 0.0 ? run.peaks.reaction_along.largest : NAN; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::reaction_along},
-    {"reaction_against_N", [](Run run, double) { return run.peaks.reaction_against.largest > 0.0 ? run.peaks.reaction_against.largest : NAN; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::reaction_against},
-    {"permanent_set_m", [](Run run, double) { return largest_magnitude(run.envelope, &EnvelopeRow::set_from_supports); }, usual_safety, From::shapes},
-    {"hinge_rotation_rad", [](Run run, double) { return largest_magnitude(run.plastic_zones, &PlasticZone::rotation); }, usual_safety, From::shapes},
-    {"striker_energy_share", [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
-    {"dissipated_J", [](Run run, double) { return dissipated(run.final_energies); }, safety_of_dissipated},
+    {RunTotal::zones, [](Run run, double) { return run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone; }, as_it_is},
+    {RunTotal::striker_velocity, [](Run run, double) { return run.striker_velocity; }},
+    {RunTotal::beam_mean_velocity, [](Run run, double) { return run.beam_mean_velocity; }, safety_of_beam_velocity},
+    {RunTotal::restitution, [](Run run, double) { return run.restitution.value_or(NAN); }},
+    {RunTotal::impulse, [](Run run, double) { return run.impulse(); }},
+    {RunTotal::peak_force, [](Run run, double) { return run.max_force; }, safety_of_largest},
+    {RunTotal::max_indentation, [](Run run, double) { return run.max_indentation; }, safety_of_largest},
+    {RunTotal::residual_indentation, [](Run run, double) { return run.sub_impacts.empty() ? NAN : run.sub_impacts.back().residual_indentation; }},
+    {RunTotal::max_displacement, [](Run run, double) { return run.peaks.displacement.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::displacement, &EnvelopeRow::displacement},
+    {RunTotal::max_moment, [](Run run, double) { return run.peaks.moment.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::moment, &EnvelopeRow::moment},
+    {RunTotal::max_strain, [](Run run, double) { return run.peaks.strain.largest; }, usual_safety, From::shapes, largest_error_of_strain, &FieldPeaks::strain, &EnvelopeRow::strain},
+    {RunTotal::reaction_along, [](Run run, double) { return run.peaks.reaction_along.largest > 0.0 ? run.peaks.reaction_along.largest : NAN; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::reaction_along},
+    {RunTotal::reaction_against, [](Run run, double) { return run.peaks.reaction_against.largest > 0.0 ? run.peaks.reaction_against.largest : NAN; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::reaction_against},
+    {RunTotal::permanent_set, [](Run run, double) { return largest_magnitude(run.envelope, &EnvelopeRow::set_from_supports); }, usual_safety, From::shapes},
+    {RunTotal::hinge_rotation, [](Run run, double) { return largest_magnitude(run.plastic_zones, &PlasticZone::rotation); }, usual_safety, From::shapes},
+    {RunTotal::striker_energy_share, [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
+    {RunTotal::dissipated, [](Run run, double) { return dissipated(run.final_energies); }, safety_of_dissipated},
 };
 // clang-format on
 
 // Sums the errors of the parts, each the largest over its runs. `value`: of a run; none where the
 // run has no such thing.
-Total total_of(const Result& run, std::span<const RunBeside> beside, double safety,
+Total total_of(const Result& run, std::span<const RunBeside> beside,
+               const std::optional<double>& safety,
                const std::function<std::optional<double>(const Result&)>& value) {
   Total total{value(run).value_or(0.0), {}};
-  std::map<std::string, double> parts;
+  std::map<ErrorSource, double> parts;
   for (const RunBeside& other : beside) {
     const bool shows_errors_alone = other.of.of_rows && !other.of.of_existence;
-    if (safety == as_it_is && shows_errors_alone) continue;
+    if (!safety && shows_errors_alone) continue;
     const std::optional<double> there = value(other.result);
     if (!there || !other.result.outcome.completed()) return total;
-    const auto part_of = [](const RunBeside& run_beside) { return run_beside.of.part; };
-    const bool alone = std::ranges::count(beside, other.of.part, part_of) == 1;
-    const double factor = safety * other.of.gain * (alone ? single_run_factor : 1.0);
-    double& error = parts[other.of.part];
-    error = std::max(error, (safety == as_it_is ? 1.0 : factor) * std::abs(total.value - *there));
+    const auto source_of = [](const RunBeside& run_beside) { return run_beside.of.source; };
+    const bool alone = std::ranges::count(beside, other.of.source, source_of) == 1;
+    const double factor =
+        safety ? *safety * other.of.gain * (alone ? single_run_factor : 1.0) : 1.0;
+    double& error = parts[other.of.source];
+    error = std::max(error, factor * std::abs(total.value - *there));
   }
   total.error = 0.0;
-  for (const auto& [part, error] : parts) *total.error += error;
+  for (const auto& [source, error] : parts) *total.error += error;
   return total;
 }
 
@@ -242,7 +244,7 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
   }
   Total count = sum_of_counts(estimate.zones);
   if (run.sub_impacts.empty() && estimate.first_unresolved) count.error = 1.0;
-  estimate.totals.insert(estimate.totals.begin(), {"sub_impacts", count});
+  estimate.totals.insert(estimate.totals.begin(), {RunTotal::sub_impacts, count});
 }
 
 void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> beside) {

@@ -275,6 +275,7 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
     if (!given.contain(key) && find_case_key(key)->get(chosen)) keys.emplace_back(key);
   }
   input = std::move(chosen);
+  input.theory_is_chosen = open_theory;
   input.model_choice = fmt::format("{}", fmt::join(words, "; "));
   return keys;
 }

@@ -63,7 +63,7 @@ void Refinement::choose_count(const ResolvedSettings& used) {
   const int parts = parts_at_first(first_, used);
   const int twice = std::min(2 * parts, most_parts_at_first(first_));
   first_ = with_count(first_, parts);
-  if (parts == waves || mesh_doubt(first_, resolve(first_).settings()).empty()) return;
+  if (parts == waves || !mesh_doubt(first_, resolve(first_).settings())) return;
   first_ = with_count(first_, twice);
 }
 

@@ -103,7 +103,7 @@ class Search {
       Level level = level_of(*next, is_last(*next));
       if (level.result.outcome.kind == OutcomeKind::stopped) return ended_early(std::move(level));
       if (!level.result.outcome.completed() && best_) {
-        obstacle_ = "the run on the next mesh failed (" + level.result.outcome.message + ")";
+        obstacle_ = {Reason::Kind::failed_run, level.result.outcome.message};
         break;
       }
       best_ = std::move(level);
@@ -175,7 +175,7 @@ class Search {
   // The result after an interruption: the last level that ended, else the current one.
   WithinRun ended_early(Level level) {
     if (!best_) return {level.input, std::move(level.result)};
-    obstacle_ = "the search was stopped";
+    obstacle_ = {Reason::Kind::stopped_search};
     WithinRun found{std::move(best_->input), std::move(best_->result)};
     describe(found);
     found.result.outcome = {OutcomeKind::stopped,
@@ -267,7 +267,7 @@ class Search {
 
   std::optional<Case> finer_case() {
     if (const char* key = refinement_->fixed_key()) {
-      return refuse(key, fmt::format("{} is fixed by the case", key));
+      return refuse(key, {Reason::Kind::fixed_key, key});
     }
     double ratio = ratio_wanted();
     while (work_ + work_of_next(ratio) > work_limit_ && ratio > least_refinement) {
@@ -275,24 +275,21 @@ class Search {
     }
     const double work = work_ + work_of_next(ratio);
     if (work > work_limit_) {
-      return refuse(
-          "accuracy.work_limit",
-          fmt::format("a finer mesh would take the counted work from {:.1e} to {:.1e}, "
-                      "above the limit of {:.1e}{}",
-                      work_, work, work_limit_,
-                      input_.accuracy.event_times ? "" : " for a run without a tolerance"));
+      using enum Reason::Kind;
+      const auto kind = input_.accuracy.event_times ? work_limit : default_work_limit;
+      return refuse("accuracy.work_limit", {kind, {}, work_, work, work_limit_});
     }
     std::optional<Case> finer = refinement_->finer(best_->input, ratio);
-    if (!finer) return refuse(refinement_->size_key(), "the mesh is the finest that is allowed");
+    if (!finer) return refuse(refinement_->size_key(), {Reason::Kind::finest_mesh});
     try {
       check_memory(resolve(*finer).settings());
     } catch (const InvalidCase& error) {
-      return refuse(error.key, fmt::format("on a finer mesh {} {}", error.key, error.what()));
+      return refuse(error.key, {Reason::Kind::memory, error.key + " " + error.what()});
     }
     return finer;
   }
 
-  std::nullopt_t refuse(const std::string& key, const std::string& obstacle) {
+  std::nullopt_t refuse(const std::string& key, const Reason& obstacle) {
     key_ = key;
     obstacle_ = obstacle;
     return std::nullopt;
@@ -300,7 +297,7 @@ class Search {
 
   void describe(WithinRun& run) const {
     Result& result = run.result;
-    result.choice = model_.reason + (obstacle_.empty() ? "" : "; " + obstacle_);
+    result.choice = model_.reason + (obstacle_ ? "; " + words_of(obstacle_) : "");
     if (!input_.accuracy.event_times) return;
     ToleranceOutcome& outcome = result.tolerance.emplace();
     outcome.asked = tolerance_;
@@ -312,20 +309,20 @@ class Search {
     const auto beyond = std::ranges::find_if(result.sub_impacts, [&](const SubImpact& s) {
       return s.certain.value_or(false) && largest_time_error(s) > tolerance_;
     });
-    std::string reason = result.error_estimate ? result.error_estimate->reason
-                                               : "no coarser run is possible that shows the error";
-    if (beyond != result.sub_impacts.end()) {
-      outcome.horizon = beyond->start;
-      reason =
-          fmt::format("the error of sub-impact {} is {:.2g} us",
-                      beyond - result.sub_impacts.begin() + 1, 1e6 * largest_time_error(*beyond));
-    } else if (result.error_estimate && result.error_estimate->first_unresolved) {
-      reason =
-          fmt::format("sub-impact {}: {}", *result.error_estimate->first_unresolved + 1, reason);
-    }
-    outcome.reason = result.outcome.completed() ? reason : result.outcome.message;
-    if (!obstacle_.empty()) outcome.reason += "; " + obstacle_;
+    outcome.obstacle = obstacle_;
     outcome.key = key_;
+    using Kind = Reason::Kind;
+    if (!result.outcome.completed()) {
+      outcome.reason = {Kind::in_words, result.outcome.message};
+    } else if (beyond != result.sub_impacts.end()) {
+      outcome.reason = {.kind = Kind::error_of_times, .error = largest_time_error(*beyond)};
+      outcome.reason->sub_impact = beyond - result.sub_impacts.begin();
+    } else if (!result.error_estimate) {
+      outcome.reason = {Kind::no_run_beside};
+    } else if ((outcome.reason = result.error_estimate->reason)) {
+      outcome.reason->sub_impact = result.error_estimate->first_unresolved;
+    }
+    if (beyond != result.sub_impacts.end()) outcome.horizon = beyond->start;
   }
 
   Case input_;
@@ -338,10 +335,10 @@ class Search {
   bool has_rows_ = false;  // the last run
   ChosenModel model_;
   std::optional<Refinement> refinement_;
-  std::optional<Level> best_;  // the last one that ended
-  double work_ = 0.0;          // of all runs so far
-  std::string obstacle_;       // why no finer mesh is run
-  std::string key_;            // that prevents meeting the tolerance
+  std::optional<Level> best_;       // the last one that ended
+  double work_ = 0.0;               // of all runs so far
+  std::optional<Reason> obstacle_;  // why no finer mesh is run
+  std::string key_;                 // that prevents meeting the tolerance
 };
 
 }  // namespace

@@ -88,9 +88,9 @@ std::string unpredictable_reason(const Deviations& deviation, std::size_t i) {
   const double largest = std::max(*start, *end);
   for (const LengthBeside& beside : lengths_beside(all, i)) {
     consider(excess("its start or end", largest, share_of_length, beside.words, beside.length));
-    if (beside.kind == LengthBeside::Kind::separation_after) continue;
+    if (beside.kind == Reason::Kind::separation_after) continue;
     const auto change =
-        beside.kind == LengthBeside::Kind::duration
+        beside.kind == Reason::Kind::duration
             ? deviation.of_difference(EventQuantity::end, i, EventQuantity::start, i)
             : deviation.of_difference(EventQuantity::start, i, EventQuantity::end, i - 1);
     consider(excess(beside.words, change, share_of_change, "itself", beside.length));

@@ -67,7 +67,7 @@ std::vector<OutcomePoint> points_of(const Case& input, const std::vector<std::st
       if (row.fixed_step) chosen.solver.step = x / highest_frequency;
       if (!row.fixed_step) chosen.solver.rtol = x;
       OutcomePoint& point = points.emplace_back();
-      point.group = row.fixed_step ? "fixed step" : "tolerance";
+      point.setting.fixed_step = row.fixed_step;
       point.row = row.name;
       point.x = x;
       point.input = chosen;

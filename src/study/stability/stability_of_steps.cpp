@@ -111,14 +111,18 @@ bool blows_up(StruckBeam& beam, double step) {
 
 }  // namespace
 
+static bool is_central(const std::string& method) {
+  return with_method({}, method).solver.method == Method::central_difference;
+}
+
 double stability_limit(const std::string& method) {
-  if (method == "central-difference") return 2.0;
+  if (is_central(method)) return 2.0;
   return first_unstable(predicted_growth(method));
 }
 
 std::vector<Resonance> resonances(const std::string& method) {
   std::vector<Resonance> list;
-  if (method == "central-difference") return list;
+  if (is_central(method)) return list;
   const auto growth = predicted_growth(method);
   const double limit = stability_limit(method);
   bool inside = false;

@@ -103,23 +103,16 @@ constexpr const char* spoilt_cases[][3] = {
      R"(14:1: |solver.table is "dop54"|"dop853", "dormand-prince")"},
     {"youngs", "ends = ['free', 'glued']\nyoungs",
      R"(6:1: |beam.ends is "glued"|a list of two out of "free")"},
-    {"youngs", "ends = ['free', 'fixed']\nyoungs",
-     R"(6:1: |beam.ends is "fixed"|did you mean "clamped"?)"},
-    {"youngs", "ends = ['Simply supported', 'ss']\nyoungs",
-     R"(6:1: |beam.ends is "Simply supported"|did you mean "pinned"?)"},
-    {"youngs", "ends = 'built-in'\nyoungs",
-     R"(6:1: |beam.ends is a text ("built-in")|did you mean ["clamped", "clamped"]?)"},
-    {"youngs", "ends = ['hinged']\nyoungs", R"(6:1: |did you mean ["pinned", "pinned"]?)"},
-    {"youngs", "ends = 'cantilever'\nyoungs", R"(6:1: |did you mean ["clamped", "free"]?)"},
+    {"youngs", "ends = ['free', 'clampt']\nyoungs",
+     R"(6:1: |beam.ends is "clampt"|did you mean "clamped"?)"},
+    {"youngs", "ends = 'clamped'\nyoungs",
+     R"(6:1: |beam.ends is a text ("clamped")|did you mean ["clamped", "clamped"]?)"},
+    {"youngs", "ends = ['pined']\nyoungs", R"(6:1: |did you mean ["pinned", "pinned"]?)"},
     {"mass = 0.201", "mass = 0,201",
      "8:|0,201 has a decimal comma|TOML writes a decimal point: 0.201"},
     {"mass = 0.201", "mass = '0,201'", "8:1: striker.mass|TOML writes a decimal point: 0.201"},
     {"[time]\nend = 2e-5", "time = { end = 2,5e-5 }",
      "11:|2,5e-5 has a decimal comma|TOML writes a decimal point: 2.5e-5"},
-    {"", "[solver]\ntolerance = 1e-9",
-     R"(14:1: |unknown key "solver.tolerance"|has moved to "solver.rtol"|write rtol under [solver])"},
-    {"", "[model]\ncells = 501",
-     R"(14:1: |unknown key "model.cells"|has moved to "model.segments")"},
     {"youngs", "ends = ['free']\nyoungs", R"(6:1: |beam.ends is ["free"]|a list of two)"},
     {"youngs", "ends = [1, 2]\nyoungs",
      "6:1: |beam.ends is a list of numbers ([1, 2])|a list of two"},
@@ -257,28 +250,11 @@ TEST(BadOverride, IsNamedAsTheCommandLineGaveIt) {
         {"time.end=", "time.end is ''|above 0 (s)"},
         {"time.end=8 mm", R"("mm" is none of its units: s, ms, us, ns)"},
         {"striker.mass=0,201", "TOML writes a decimal point: 0.201"},
-        {"solver.tolerance=1e-9", R"(has moved to "solver.rtol")"},
         {"solver.pair_detection=false", R"(did you mean "study.pair_detection"?)"},
         {"time.end=1\nother=2", "time.end is|above 0 (s)"}}) {
     const std::string refusal = refusal_with(setting);
     expect_all_in(refusal, message);
     expect_in(refusal, std::string("--set ") + std::string(setting).substr(0, 8));
-  }
-}
-
-TEST(KeysOfOtherPrograms, LeadToKeysThatThereAreFromNamesThatThereAreNot) {
-  for (const auto& [other, own] : {std::pair("beam.height", "beam.thickness"),
-                                   {"beam.modulus", "beam.youngs_modulus"},
-                                   {"beam.supports", "beam.ends"},
-                                   {"striker.radius", "striker.nose_radius"},
-                                   {"striker.speed", "striker.velocity"},
-                                   {"model.cells", "model.segments"},
-                                   {"time.end_time", "time.end"},
-                                   {"solver.dt", "solver.step"}}) {
-    EXPECT_NE(find_case_key(own), nullptr) << own;
-    EXPECT_EQ(find_case_key(other), nullptr) << other;
-    expect_in(refusal_with(std::string(other) + "=1"), other,
-              std::string("has moved to \"") + own + '"');
   }
 }
 

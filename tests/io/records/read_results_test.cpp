@@ -113,15 +113,15 @@ TEST(ReadResults, KeepsWarningsFailuresNearMissesAndTheClosestApproach) {
 TEST(ReadResults, KeepsAWishAndThatNoneWasMade) {
   Result result = sample_result();
   for (const bool met : {true, false}) {
-    result.tolerance =
-        ToleranceOutcome{1e-6, met, met ? 3e-7 : infinity, 8.4e-4, "too coarse", "model.mesh"};
+    result.tolerance = ToleranceOutcome{
+        1e-6, met, met ? 3e-7 : infinity, 8.4e-4, Reason{{}, "too coarse"}, {}, "model.mesh"};
     const FinishedRun run = written_and_read(result);
     ASSERT_TRUE(run.result.tolerance);
     EXPECT_EQ(run.result.tolerance->met, met);
     EXPECT_EQ(run.result.tolerance->asked, 1e-6);
     EXPECT_EQ(run.result.tolerance->reached, met ? 3e-7 : infinity);
     EXPECT_EQ(run.result.tolerance->horizon, 8.4e-4);
-    EXPECT_EQ(run.result.tolerance->reason, "too coarse");
+    EXPECT_EQ(words_of(run.result.tolerance->reason), "too coarse");
     EXPECT_EQ(run.result.tolerance->key, "model.mesh");
     expect_in(summary_json(run.input, result), met ? "\"wish_met\": true" : "\"wish_met\": false");
   }
@@ -142,16 +142,16 @@ TEST(ReadResults, KeepWhichSubImpactsAreCertainWithTheirErrors) {
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_EQ(read.sub_impacts[i].certain, i < n);
       EXPECT_EQ(read.sub_impacts[i].probability, i < n ? 1.0 : 0.75);
-      EXPECT_EQ(read.sub_impacts[i].doubt, i < n ? "" : "they part");
+      EXPECT_EQ(words_of(read.sub_impacts[i].doubt), i < n ? "" : "they part");
       EXPECT_EQ(read.sub_impacts[i].impulse_error, result.sub_impacts[i].impulse_error);
     }
     ASSERT_TRUE(read.error_estimate);
     const ErrorEstimate::Part& part = read.error_estimate->parts.at(0);
-    EXPECT_EQ(part.name, "mesh");
+    EXPECT_EQ(part.source, ErrorSource::mesh);
     for (const auto& unresolved : {part.first_unresolved, read.error_estimate->first_unresolved}) {
       EXPECT_EQ(unresolved, n < 3 ? std::optional(n) : std::nullopt);
     }
-    EXPECT_EQ(read.error_estimate->reason, n < 3 ? "they part" : "");
+    EXPECT_EQ(words_of(read.error_estimate->reason), n < 3 ? "they part" : "");
   }
 }
 
@@ -164,7 +164,8 @@ TEST(ReadResults, KeepTotalsZonesAndUncertainFlights) {
   const ErrorEstimate& written = *result.error_estimate;
   ASSERT_EQ(read.uncertain_flights.size(), 1u);
   EXPECT_EQ(read.uncertain_flights.front().after, 1u);
-  EXPECT_EQ(read.uncertain_flights.front().reason, written.uncertain_flights.front().reason);
+  EXPECT_EQ(words_of(read.uncertain_flights.front().reason),
+            words_of(written.uncertain_flights.front().reason));
   ASSERT_EQ(read.totals.size(), written.totals.size());
   for (std::size_t i = 0; i < read.totals.size(); ++i) {
     EXPECT_EQ(read.totals[i].name, written.totals[i].name);

@@ -65,7 +65,7 @@ TEST(HtmlReport, ShowsAWishUnderTheTitle) {
   FinishedRun run = small_run();
   expect_not_in(page_of(run), "Tolerance:");
   run.result.tolerance =
-      ToleranceOutcome{1e-6, false, 2e-6, 8.4e-4, "cells < 51", "model.segments"};
+      ToleranceOutcome{1e-6, false, 2e-6, 8.4e-4, Reason{{}, "cells < 51"}, {}, "model.segments"};
   const std::string page = page_of(run);
   expect_in(page.substr(0, page.find("<h2>")), "Tolerance:", "not met; 2 µs reached up to 840 µs",
             "cells &lt; 51; free model.segments");
@@ -218,10 +218,10 @@ TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   run.result.sub_impacts.at(1).certain = false;
   ErrorEstimate estimate;
   estimate.first_unresolved = 1;
-  estimate.reason = "they <part>";
+  estimate.reason = Reason{{}, "they <part>"};
   estimate.largest_error = 3e-7;
-  estimate.parts = {{{"rtol = 1e-7", {}, "", 2e-9}, "time"},
-                    {{"43 cells", 1, "they <part>", 3e-7}, "mesh"}};
+  estimate.parts = {{{"rtol = 1e-7", {}, {}, 2e-9}, ErrorSource::time},
+                    {{"43 cells", 1, estimate.reason, 3e-7}, ErrorSource::mesh}};
   run.result.error_estimate = estimate;
   expect_in(page_of(run), "to 0.002 µs up to 900 µs (runs beside: rtol = 1e-7)",
             "(runs beside: 43 cells)", "to 0.3 µs; sub-impact 2: they &lt;part&gt;");

@@ -94,39 +94,6 @@ TEST(UnitSlips, AreDoubtedForEachKeyAndOnlyForThose) {
   }
 }
 
-TEST(AFileInOneOtherSystemOfUnits, IsDoubtedInOneSentenceWithAllItsValues) {
-  struct System {
-    const char* name;
-    double length, mass, time;  // SI units in one of its own
-  };
-  for (const System& in : {System{"mm, t, s", 1e3, 1e-3, 1.0}, System{"mm, kg, ms", 1e3, 1.0, 1e3},
-                           System{"mm, g, ms", 1e3, 1e3, 1e3}, System{"cm, g, s", 1e2, 1e3, 1.0},
-                           System{"cm, g, us", 1e2, 1e3, 1e6}}) {
-    const double pressure = in.mass / in.length / in.time / in.time;
-    std::vector<std::string> settings;
-    const auto set = [&](const char* key, double si, double factor) {
-      settings.push_back(fmt::format("{}={}", key, si * factor));
-    };
-    set("beam.length", 0.7112, in.length);
-    set("beam.width", 0.0163, in.length);
-    set("beam.thickness", 0.0075, in.length);
-    set("beam.density", 2600.0, in.mass / std::pow(in.length, 3));
-    set("beam.youngs_modulus", 71.96e9, pressure);
-    set("beam.yield_stress", 150e6, pressure);
-    set("striker.mass", 0.201, in.mass);
-    set("striker.nose_radius", 0.01, in.length);
-    set("striker.velocity", 15.9, in.length / in.time);
-    set("time.end", 8e-3, in.time);
-    const std::vector<std::string> doubts = doubtful_units(readme_with(settings));
-    ASSERT_EQ(doubts.size(), 1U) << in.name << fmt::format("{}", fmt::join(doubts, "\n"));
-    expect_in(doubts[0], "looks like", in.name, "beam.length = 0.7112", "beam.density = 2600",
-              "beam.youngs_modulus = 7.196e+10", "beam.yield_stress = 1.5e+08",
-              "striker.nose_radius = 0.01");
-    if (in.mass != 1.0) expect_in(doubts[0], "striker.mass = 0.201");
-    if (in.length != in.time) expect_in(doubts[0], "striker.velocity = 15.9");
-  }
-}
-
 /// Scenes far from README's that are all the same plausible.
 const std::pair<const char*, std::vector<std::string>> plausible_scenes[] = {
     {"OfReadme", {}},

@@ -71,7 +71,7 @@ TEST(RunSummary, GivesNoRestitutionOfAStrikeThatIsNotOver) {
 TEST(RunSummary, GivesNoNumberWhoseErrorExceedsIt) {
   Result result = sample_result_with_errors(3);
   for (auto& [name, total] : result.error_estimate->totals) {
-    if (name == "peak_force_N") total.error = 12e3;
+    if (name == RunTotal::peak_force) total.error = 12e3;
   }
   expect_in(line_of(summary_of(paper_case(), result), "largest force"), "? (at most 30000) N");
 }
@@ -84,7 +84,7 @@ TEST(RunSummary, GivesAReasonOnce) {
 
 TEST(RunSummary, NamesTheErrorOfMeshAndTime) {
   Result result = sample_result_with_errors(3);
-  result.error_estimate->parts.at(0).name = "mesh and time";
+  result.error_estimate->parts.at(0).source = ErrorSource::mesh_and_time;
   EXPECT_TRUE(line_of(summary_of(paper_case(), result, true), "mesh and time error ").size() > 25);
 }
 
@@ -148,7 +148,7 @@ TEST(RunSummary, CountsTheSubImpactsThatAreCertain) {
             "3 in 2 zones, 3 certain, which may not be all: ");
   expect_in(line_of(summary_of(paper_case(), sample_result()), "sub-impacts"), "not known");
   Result both = sample_result_with_errors(2);
-  both.error_estimate->uncertain_flights = {{0, "there is another one"}};
+  both.error_estimate->uncertain_flights = {{0, Reason{}}};
   both.error_estimate->totals.front().total.error = 2.0;
   expect_in(summary_of(paper_case(), both), "3 in 2 zones, 2 certain, 1 more possible: ");
 }
@@ -202,9 +202,10 @@ TEST(Advice, OnUncertainSubImpactsOfAMeshThatTheCaseFixesFreesIt) {
 TEST(Advice, OnSearchesThatTheLimitOfWorkEndedRaisesIt) {
   Result result = result_that_took_a_while(2);
   result.choice = "sections yield";
-  result.tolerance = ToleranceOutcome{1e-6, false, 2e-6, 1e-3, "", "accuracy.work_limit"};
+  result.tolerance =
+      ToleranceOutcome{1e-6, false, 2e-6, 1e-3, {}, Reason{Reason::Kind::work_limit}, ""};
   expect_in(advice_on(result), "--within 1us\n--set accuracy.work_limit=");
-  result.tolerance->key = "model.segments";
+  result.tolerance->obstacle = Reason{Reason::Kind::fixed_key, "model.segments"};
   EXPECT_EQ(advice_on(result), "");
 }
 
@@ -266,7 +267,7 @@ Result result_with_energies() {
 TEST(RunSummary, HasEnergiesThatAddUpToTheInitialOneAsTheyArePrinted) {
   Result result = result_with_energies();
   for (const double error : {0.0, 0.003, 0.04, 0.5}) {
-    result.error_estimate->totals.push_back({"dissipated_J", {0.0, error}});
+    result.error_estimate->totals.push_back({RunTotal::dissipated, {0.0, error}});
     std::istringstream line(line_of(summary_of(paper_case(), result), "energy"));
     std::string word;
     double sum = 0.0, initial = 0.0;
@@ -354,16 +355,17 @@ TEST(Warnings, AreShownInTheSummary) {
 
 TEST(ATolerance, NamesWhatIsReachedUpToWhichHorizonWithReasonAndKey) {
   const std::pair<ToleranceOutcome, std::string> all[] = {
-      {{1e-7, true, 0.3e-7, 8e-3, "", ""},
+      {{1e-7, true, 0.3e-7, 8e-3, {}, {}, ""},
        "event times within 0.1 us: met to the end (0.03 us reached)"},
-      {{1e-6, true, 0.3e-6, 840e-6, "its mesh is too coarse", "model.segments"},
+      {{1e-6, true, 0.3e-6, 840e-6, Reason{{}, "its mesh is too coarse"}, {}, "model.segments"},
        "event times within 1 us: met up to 840 us, 2 of 3 sub-impacts (0.3 us reached); beyond: "
        "its "
        "mesh is too coarse; free model.segments"},
-      {{1e-6, false, 2.5e-6, 8e-3, "model.segments is fixed", "model.segments"},
-       "event times within 1 us: not met; 3 us reached to the end; model.segments is fixed; free "
-       "model.segments"},
-      {{1e-6, false, std::numeric_limits<double>::infinity(), 0.0, "", ""},
+      {{1e-6, false, 2.5e-6, 8e-3, Reason{{}, "it parts"},
+        Reason{Reason::Kind::fixed_key, "model.segments"}, "model.segments"},
+       "event times within 1 us: not met; 3 us reached to the end; it parts; model.segments is "
+       "fixed by the case; free model.segments"},
+      {{1e-6, false, std::numeric_limits<double>::infinity(), 0.0, {}, {}, ""},
        "event times within 1 us: not met; the error reached is not known"}};
   Result result = sample_result();  // ends: 0.33, 0.6 and, still open, 8 ms
   expect_not_in(summary_of(paper_case(), result), "  tolerance ");

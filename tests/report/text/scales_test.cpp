@@ -19,7 +19,7 @@ TEST(RunSummary, GivesTheSameDigitsOfALargestForceAtEveryScale) {
     result.max_force *= scale;
     for (SubImpact& s : result.sub_impacts) s.peak_force *= scale;
     for (auto& [name, total] : result.error_estimate->totals) {
-      if (name == "peak_force_N") total = {8.8e3 * scale, 0.5 * scale};
+      if (name == RunTotal::peak_force) total = {8.8e3 * scale, 0.5 * scale};
     }
     std::string digits = line_of(summary_of(paper_case(), result), "largest force");
     digits.resize(digits.find('N'));
@@ -59,14 +59,15 @@ Result scaled_sample(double scale, std::size_t n_certain) {
   scaled(result.max_indentation, scale);
   result.used.initial_energy = 25.0 * cube;
   for (auto& [name, total] : result.error_estimate->totals) {
-    const double by = name == "impulse_Ns"              ? cube
-                      : name == "peak_force_N"          ? square
-                      : name.ends_with("indentation_m") ? scale
-                                                        : 1.0;
+    const double by = name == RunTotal::impulse      ? cube
+                      : name == RunTotal::peak_force ? square
+                      : name == RunTotal::max_indentation || name == RunTotal::residual_indentation
+                          ? scale
+                          : 1.0;
     scaled(total.value, by);
     scaled(total.error, by);
   }
-  result.error_estimate->totals.push_back({"dissipated_J", {0.0, 0.02 * cube}});
+  result.error_estimate->totals.push_back({RunTotal::dissipated, {0.0, 0.02 * cube}});
   for (ZoneTotals& zone : result.error_estimate->zones) {
     for (Total* time : {&zone.start, &zone.end}) {
       scaled(time->value, scale);

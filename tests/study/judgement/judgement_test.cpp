@@ -39,7 +39,7 @@ Result contacts(int n, double later = 0.0) {
 Result judged(Result run, const Result& other, std::size_t n = 2) {
   Case input;
   input.scene.striker.velocity = 1.0;
-  const std::vector<RunBeside> beside(n, {{input, "time", "another run", 1.0}, other});
+  const std::vector<RunBeside> beside(n, {{input, ErrorSource::time, "another run", 1.0}, other});
   judge(input, run, beside);
   return run;
 }
@@ -57,9 +57,10 @@ TEST(AJudgement, TakesErrorsButNoDoubtFromARunThatDoesNotCountForExistence) {
   Case input;
   input.scene.striker.velocity = 1.0;
   Result run = contacts(3), without = contacts(2, 0.8 * us);
-  std::vector<RunBeside> beside{{{input, "time", "a near run", 1.0}, contacts(3, 0.5 * us)},
-                                {{input, "time", "another one", 1.0}, contacts(3, 0.5 * us)},
-                                {{input, "time", "a far run", 1.0}, without}};
+  std::vector<RunBeside> beside{
+      {{input, ErrorSource::time, "a near run", 1.0}, contacts(3, 0.5 * us)},
+      {{input, ErrorSource::time, "another one", 1.0}, contacts(3, 0.5 * us)},
+      {{input, ErrorSource::time, "a far run", 1.0}, without}};
   beside.back().of.of_existence = false;
   judge(input, run, beside);
   EXPECT_TRUE(run.all_certain());
@@ -82,10 +83,8 @@ TEST(AJudgement, HearsNothingFromARunBeyondWhereItStopped) {
   stopped.outcome = {OutcomeKind::inaccurate, 350.0 * us, "", {}};
   const Result run = judged(contacts(3), stopped);
   EXPECT_FALSE(*run.sub_impacts[2].certain);
-  const std::string& reason = run.error_estimate->reason;
-  EXPECT_NE(reason.find("the run with another run stopped before its end, at 350 us"),
-            std::string::npos)
-      << reason;
+  EXPECT_EQ(words_of(run.error_estimate->reason),
+            "the run with another run stopped before its end, at 350 us");
 }
 
 TEST(AJudgement, HearsOfNoFlightAndOfNoUnfinishedForceFromARunThatStopped) {
@@ -123,8 +122,8 @@ TEST(AJudgement, IsOneAccountOfCountsVerdictsAndTotals) {
   // A run that shows errors alone does not change the count of what is certain.
   Case input;
   input.scene.striker.velocity = 1.0;
-  std::vector<RunBeside> beside(2, {{input, "time", "a near run", 1.0}, contacts(5)});
-  beside.push_back({{input, "time", "a far run", 1.0}, split});
+  std::vector<RunBeside> beside(2, {{input, ErrorSource::time, "a near run", 1.0}, contacts(5)});
+  beside.push_back({{input, ErrorSource::time, "a far run", 1.0}, split});
   beside.back().of.of_existence = false;
   judge(input, last_zone, beside);
   EXPECT_TRUE(last_zone.all_certain());
@@ -173,8 +172,8 @@ TEST(AJudgement, CallsCertainWhatFollowsAnUncertainSubImpact) {
   const Result run = judged(contacts(4), split_contacts());
   EXPECT_FALSE(*run.sub_impacts[1].certain);
   EXPECT_LT(*run.sub_impacts[1].probability, 1.0);
-  EXPECT_TRUE(*run.sub_impacts[2].certain) << run.sub_impacts[2].doubt;
-  EXPECT_TRUE(*run.sub_impacts[3].certain) << run.sub_impacts[3].doubt;
+  EXPECT_TRUE(*run.sub_impacts[2].certain) << words_of(run.sub_impacts[2].doubt);
+  EXPECT_TRUE(*run.sub_impacts[3].certain) << words_of(run.sub_impacts[3].doubt);
   EXPECT_EQ(run.error_estimate->first_unresolved, 1u);
 }
 
@@ -237,7 +236,8 @@ TEST(AJudgement, CallsNothingCertainAtTolerancesOfPercents) {
   for (const double rtol : {5e-3, 2e-2}) {
     input.solver.rtol = rtol;
     Result run = contacts(3);
-    judge(input, run, std::vector<RunBeside>{{{input, "time", "another", 1.0}, contacts(3)}});
+    judge(input, run,
+          std::vector<RunBeside>{{{input, ErrorSource::time, "another", 1.0}, contacts(3)}});
     EXPECT_EQ(run.n_certain(), rtol < 1e-2 ? 3u : 0u);
     EXPECT_EQ(run.error_estimate->first_unresolved.has_value(), rtol > 1e-2);
   }
@@ -249,14 +249,15 @@ TEST(AJudgement, OfAGivenMeshLeavesTheMeshToTheTotalsAndSaysWhatItChanges) {
   other.max_force = 2.0;
   Result run = contacts(3);
   run.max_force = 1.0;
-  std::vector<RunBeside> beside{{{Case(), "time", "another tolerance", 1.0}, contacts(3)},
-                                {{Case(), "mesh", "another mesh", 1.0}, other}};
+  std::vector<RunBeside> beside{
+      {{Case(), ErrorSource::time, "another tolerance", 1.0}, contacts(3)},
+      {{Case(), ErrorSource::mesh, "another mesh", 1.0}, other}};
   beside[1].of.of_rows = false;
   judge(Case(), run, beside);
   EXPECT_EQ(run.n_certain(), 3u);
   EXPECT_LT(run.sub_impacts[1].start_error, 1e-15);
   const auto& totals = run.error_estimate->totals;
-  const auto force = std::ranges::find(totals, "peak_force_N", &NamedTotal::name);
+  const auto force = std::ranges::find(totals, RunTotal::peak_force, &NamedTotal::name);
   ASSERT_NE(force, totals.end());
   EXPECT_GT(*force->total.error, 1.0);
   ASSERT_TRUE(run.error_estimate->finer_meshes.has_value());
@@ -281,7 +282,7 @@ TEST(CasesBeside, AreFinerWhereTheStrikeIsTooNearAnEndForCoarserMeshes) {
   const std::vector<CaseBeside> all = cases_beside(input);
   ASSERT_EQ(all.size(), 2u);
   for (const CaseBeside& beside : all) {
-    EXPECT_EQ(beside.part, "mesh and time");
+    EXPECT_EQ(beside.source, ErrorSource::mesh_and_time);
     EXPECT_GT(beside.input.model.elements, 50);
   }
 }

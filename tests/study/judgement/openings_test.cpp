@@ -35,7 +35,7 @@ Result judged(Result run, Result other, double joined = 0.0) {
   input.output.opening = joined;
   join_sub_impacts(run.sub_impacts, joined);
   join_sub_impacts(other.sub_impacts, joined);
-  const std::vector<RunBeside> beside(2, {{input, "time", "another run", 1.0}, other});
+  const std::vector<RunBeside> beside(2, {{input, ErrorSource::time, "another run", 1.0}, other});
   judge(input, run, beside);
   return run;
 }
@@ -62,7 +62,7 @@ TEST(AnOpeningOfOneRunAlone, PutsNothingInDoubtIfItIsJoined) {
   EXPECT_FALSE(*judged(other, run).sub_impacts[1].certain);
   for (const Result& joined : {judged(run, other, 1 * um), judged(other, run, 1 * um)}) {
     ASSERT_EQ(joined.sub_impacts.size(), 3u);
-    EXPECT_TRUE(joined.all_certain()) << joined.error_estimate->reason;
+    EXPECT_TRUE(joined.all_certain()) << words_of(joined.error_estimate->reason);
   }
 }
 
@@ -75,9 +75,8 @@ TEST(AnOpeningThatItsErrorLeavesOnEitherSideOfTheLimit, MakesTheContactsBesideIt
   EXPECT_TRUE(*found.sub_impacts[0].certain);
   EXPECT_FALSE(*found.sub_impacts[1].certain);
   EXPECT_FALSE(*found.sub_impacts[2].certain);
-  EXPECT_TRUE(*found.sub_impacts[3].certain) << found.sub_impacts[3].doubt;
-  EXPECT_NE(found.sub_impacts[1].doubt.find("less than 1 um are joined"), std::string::npos)
-      << found.sub_impacts[1].doubt;
+  EXPECT_TRUE(*found.sub_impacts[3].certain) << words_of(found.sub_impacts[3].doubt);
+  expect_in(words_of(found.sub_impacts[1].doubt), "less than 1 um are joined");
 }
 
 TEST(AnOpeningBelowTheLimitThatItsErrorLeavesOnEitherSide, MakesTheJoinedContactUncertain) {

@@ -121,7 +121,7 @@ TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
   for (const double wish : {1e-5, 1e-6, 1e-7}) {
     const WithinRun run = simulate_within(wishing(wish, SectionKind::elastic, 2e-3), {});
     ASSERT_TRUE(run.result.tolerance);
-    EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
+    EXPECT_TRUE(run.result.tolerance->met) << words_of(run.result.tolerance->reason);
     EXPECT_LE(run.result.tolerance->reached, wish);
     expect_same_starts(run.result, limit, 1e6 * wish);
     expect_same_ends(run.result, limit, 1e6 * wish);
@@ -133,7 +133,7 @@ TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
 // elements and 8007 cells.
 TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
   const WithinRun run = simulate_within(wishing(0.3e-6, SectionKind::exact, 0.3e-3), {});
-  EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
+  EXPECT_TRUE(run.result.tolerance->met) << words_of(run.result.tolerance->reason);
   ASSERT_GE(run.result.sub_impacts.size(), 3u);
   EXPECT_NEAR(*run.result.sub_impacts[0].end, 201.476e-6, 0.3e-6);
   EXPECT_NEAR(run.result.sub_impacts[1].start, 203.297e-6, 0.3e-6);
@@ -173,7 +173,7 @@ TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
   open.method = open.tolerance = false;
   const WithinRun run = simulate_within(input, open);
   EXPECT_FALSE(run.result.tolerance->met);
-  EXPECT_EQ(run.result.tolerance->key, "solver.step") << run.result.tolerance->reason;
+  EXPECT_EQ(run.result.tolerance->key, "solver.step") << words_of(run.result.tolerance->reason);
   EXPECT_EQ(run.input.solver.step, 1e-7);
 }
 
@@ -241,7 +241,7 @@ TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
   }
   ASSERT_TRUE(run.result.error_estimate);
   const auto moment =
-      std::ranges::find(run.result.error_estimate->totals, "max_moment_Nm", &NamedTotal::name);
+      std::ranges::find(run.result.error_estimate->totals, RunTotal::max_moment, &NamedTotal::name);
   ASSERT_NE(moment, run.result.error_estimate->totals.end());
   EXPECT_GT(moment->total.error.value_or(0.0), 0.0);
   EXPECT_LT(*moment->total.error, 0.05 * moment->total.value);
@@ -253,7 +253,7 @@ TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
   const WithinRun run = simulate_within(input, {});
   EXPECT_EQ(run.result.n_yielded_sections, 0u);
   EXPECT_EQ(run.input.model.mesh, MeshKind::hermite);
-  EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
+  EXPECT_TRUE(run.result.tolerance->met) << words_of(run.result.tolerance->reason);
 }
 
 TEST(CasesBeside, AreCoarserInMeshAndTime) {
@@ -265,7 +265,7 @@ TEST(CasesBeside, AreCoarserInMeshAndTime) {
   EXPECT_EQ(cases[2].input.model.segments, 201);
   EXPECT_TRUE(cases[1].of_existence);
   EXPECT_FALSE(cases[2].of_existence);
-  EXPECT_EQ(cases[1].part, "mesh and time");
+  EXPECT_EQ(cases[1].source, ErrorSource::mesh_and_time);
   EXPECT_GT(*resolve(cases[1].input).settings().step, 1.05 * *resolve(input).settings().step);
   input.solver.method = Method::erk;
   input.solver.rtol = 1e-7;
@@ -277,7 +277,7 @@ TEST(CasesBeside, OfARigidBeamAreCoarserInTimeAlone) {
   input.model.mesh = MeshKind::rigid;
   const std::vector<CaseBeside> cases = cases_beside(input);
   ASSERT_EQ(cases.size(), 1u);
-  EXPECT_EQ(cases[0].part, "time");
+  EXPECT_EQ(cases[0].source, ErrorSource::time);
 }
 
 TEST(ASearch, ThatIsStoppedReturnsTheLastMeshThatWasFinished) {

@@ -123,7 +123,9 @@ TEST(BackwardDifferentiation, GrowsFromOrderThreeOnAndDampsAtOrderTwo) {
 
 std::map<std::string, std::map<double, OutcomePoint>> by_row(const OutcomeMap& map) {
   std::map<std::string, std::map<double, OutcomePoint>> rows;
-  for (const OutcomePoint& point : map.points) rows[point.group + " " + point.row][point.x] = point;
+  for (const OutcomePoint& point : map.points) {
+    rows[(point.setting.fixed_step ? "fixed step " : "tolerance ") + point.row][point.x] = point;
+  }
   return rows;
 }
 

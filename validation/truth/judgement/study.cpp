@@ -66,9 +66,9 @@ struct Findings {
   int certain_sets = 0, lacking_sets = 0;
   int over = 0, said_over = 0, wrongly_over = 0;
   Coverage times, forces, impulses, velocities;
-  std::map<std::string, Coverage> totals;
-  std::map<std::string, std::vector<double>> widths;  // stated errors over the values
-  std::vector<double> shares;                         // certain contacts, per scene without chatter
+  std::map<RunTotal, Coverage> totals;
+  std::map<RunTotal, std::vector<double>> widths;  // stated errors over the values
+  std::vector<double> shares;                      // certain contacts, per scene without chatter
   std::string details;
 
   void add(const Findings& other) {
@@ -127,7 +127,7 @@ class Truth {
   // With totals, for which a run must be judged by some other one.
   static Result judged(const Case& input) {
     Result run = simulate(input);
-    const RunBeside itself{{input, "time", "itself", 1.0}, run};
+    const RunBeside itself{{input, ErrorSource::time, "itself", 1.0}, run};
     judge(input, run, {&itself, 1});
     return run;
   }
@@ -296,7 +296,7 @@ void print(const Findings& all, int n_scenes) {
       "| striker velocities | {} | |\n",
       all.times.text(), all.forces.text(), all.impulses.text(), all.velocities.text());
   for (const auto& [name, coverage] : all.totals) {
-    fmt::print("| total `{}` | {} | {:.2g} % |\n", name, coverage.text(),
+    fmt::print("| total `{}` | {} | {:.2g} % |\n", to_string(name), coverage.text(),
                100.0 * median(all.widths.at(name)));
   }
 }

@@ -94,7 +94,7 @@ void print_row(const JudgedScene& scene, const Wished& wished, double ratio) {
              scene.yields ? "yields" : "elastic", us * wished.wish, mesh_count(wished.run.input),
              scene.yields ? "cells" : "elements", result.sub_impacts.size(), wished.n,
              wished.n_known, us * wished.error, ratio > 0.0 ? fmt::format("{:.2f}", ratio) : "",
-             result.tolerance->reason);
+             words_of(result.tolerance->reason));
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ int study_wishes(const WishStudy& study) {
       } else if (wished.error > wished.wish) {
         ++misses;
       }
-      if (wished.n >= wished.n_possible || !outcome.reason.empty()) ++far;
+      if (wished.n >= wished.n_possible || outcome.reason) ++far;
       print_row(scene, wished, ratio);
     }
   }

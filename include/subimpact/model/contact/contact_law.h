@@ -99,6 +99,9 @@ class ContactLaw {
   /// The indentation (m) beyond which the law does not hold: a run that reaches it ends there. By
   /// default infinite; no run goes deeper than the beam is thick.
   virtual double largest_indentation() const { return std::numeric_limits<double>::infinity(); }
+  /// What ends a law: the contact is too wide, the points end, or columns as high as the beam do.
+  enum class Limit { width, last_point, height };
+  virtual Limit limit() const { return Limit::width; }
 
   /// The branch on which `indentation` lies, given the history.
   ContactBranch branch(ContactHistory history, double indentation) const;

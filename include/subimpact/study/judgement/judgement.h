@@ -13,7 +13,7 @@ namespace subimpact {
 /// A case to be run beside another one, from which it differs in mesh, time steps or section.
 struct CaseBeside {
   Case input;
-  std::string part;         ///< of the error that it shows: "mesh and time", "time", "layers" ...
+  ErrorSource source;       ///< of the error that it shows
   std::string description;  ///< in words: "2787 cells"
   /// A difference d between the two runs corresponds to an error gain d of the judged run: gain is
   /// 1/|r^p - 1|, at most 2, for a mesh coarser by the factor r (finer: r < 1) and of the order p.
@@ -42,14 +42,12 @@ struct RunBeside {
 /// in time; finer by 1.2 and 1.45 if the strike is too near an end for coarser ones. If the mesh
 /// cannot be coarser, they differ in time only.
 std::vector<CaseBeside> cases_beside(const Case& input);
-/// The cases that show the error in time only, on the mesh of the case; none where the mesh fixes
-/// the step.
+/// The cases that show the error in time only, on the mesh of the case.
 std::vector<CaseBeside> cases_beside_in_time(const Case& input);
 
 /// The cases for a mesh that is given: cases in time, for the errors of sub-impacts, and one on
 /// another mesh, for totals and the effect of finer meshes: twice as many cells by central
 /// differences, or 0.7 times as many parts if the method is that already or the mesh has no cells.
-/// Where the mesh fixes the step, those of cases_beside().
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input);
 
 /// The cases that show each source of error by itself: "time", "mesh" (a third mesh, coarser by

@@ -37,8 +37,7 @@ std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>
 
 /// A time compared with which errors of a sub-impact must be small.
 struct LengthBeside {
-  enum class Kind { duration, separation_before, separation_after };
-  Kind kind;
+  Reason::Kind kind;  ///< duration, separation_before or separation_after
   const char* words;  ///< "its duration", "the separation before it"
   double length;      ///< s
 };

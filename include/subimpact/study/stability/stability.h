@@ -77,9 +77,8 @@ struct MultistepGrowth {
 std::vector<MultistepGrowth> bdf_growths();
 
 struct OutcomePoint : Trial {
-  std::string group;  ///< "fixed step" or "tolerance"
-  std::string row;    ///< method, and what else sets the row apart
-  double x = 0.0;     ///< omega_max h, or rtol
+  std::string row;  ///< method, and what else sets the row apart
+  double x = 0.0;   ///< omega_max h of a fixed step, or rtol
 };
 
 struct OutcomeMap {

@@ -229,16 +229,19 @@ void TimoshenkoMesh::place_sections() {
 
 void TimoshenkoMesh::curvatures(std::span<const double> unknowns, std::span<double> kappa) const {
   const std::size_t n = n_sections();
-  const std::size_t begin = section_stencil(0).coefficients.size() == 3 ? 0 : 1;
-  const std::size_t end = section_stencil(n - 1).coefficients.size() == 3 ? n : n - 1;
+  // A clamp and the mirror of a half model take the unknown on the other side.
+  const std::size_t begin = ends_[0] == EndSupport::clamped ? 1 : 0;
+  const std::size_t end = symmetric() || ends_[1] == EndSupport::clamped ? n - 1 : n;
   const double* before = unknowns.data() + section_stencil(begin).first - 2 * begin;
   const double* slope = slopes_.data();
   double* k = kappa.data();
   for (std::size_t i = begin; i < end; ++i) k[i] = slope[i] * (before[2 * i + 2] - before[2 * i]);
-  for (const std::size_t i : {std::size_t{0}, n - 1}) {
+  const auto take_one = [&](std::size_t i) {
     const auto [first, row] = section_stencil(i);
-    if (row.size() == 1) k[i] = row[0] * unknowns[first];
-  }
+    k[i] = row[0] * unknowns[first];
+  };
+  if (begin > 0) take_one(0);
+  if (end < n) take_one(n - 1);
 }
 
 void TimoshenkoMesh::bending_forces(std::span<const double> moments,
