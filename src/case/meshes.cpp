@@ -263,6 +263,16 @@ void check_mesh(const Case& input) {
   mesh.check(input);
 }
 
+void make_room_for_strike(Case& input) {
+  const auto& refinement = descriptor_of(input.model.mesh).refinement;
+  const double at = input.scene.striker.position;
+  const double to_end = std::min(at, 1.0 - at);
+  if (!refinement || !(to_end > 0.0)) return;
+  int& count = input.model.*refinement->count;
+  const int needed = 2 * static_cast<int>(std::min(0.25 / to_end, 1e8)) + 2;
+  count = std::max(count, needed + (refinement->odd_in_half ? 1 : 0));
+}
+
 MeshKind default_mesh(const Case& input) {
   if (input.scene.beam.fixed) return MeshKind::rigid;
   if (!strikes_end(input) || input.model.spacing == CellSpacing::points) return MeshKind::cells;

@@ -251,3 +251,25 @@ def test_values_with_a_unit_are_those_of_a_file(elastic):
     linear["contact.law"] = "hertz"
     with pytest.raises(si.CaseError, match=r"is in MN/m.*N/m\^1.5"):
         linear.check()
+
+
+def open_case():
+    """A stubby cantilever whose theory is open, though it needs shear."""
+    return si.Case(
+        beam=dict(material="6082-T6", length=0.1, width=0.03, thickness=0.016, ends=["clamped", "free"]),
+        striker=dict(mass=0.16, velocity=0.5, position=0.8), contact=dict(law="hertz", stiffness=2e8),
+        model=dict(section="elastic"), time=dict(end=2e-3))
+
+
+def test_a_key_of_the_mesh_does_not_change_the_model():
+    case = open_case()
+    assert case.chosen()["beam.theory"] == "timoshenko"
+    for changes, mesh in (({"model.elements": 40}, "spectral"), ({"model.segments": 101}, "cells")):
+        other = case.changed(changes)
+        assert other.chosen() == case.chosen()
+        assert other.why_chosen() == case.why_chosen()
+        assert other["model.mesh"] == mesh
+    with pytest.raises(si.CaseError, match="this scene needs shear") as refused:
+        case.changed({"model.mesh": "hermite"}).chosen()
+    assert refused.value.key == "model.mesh"
+    assert case.changed({"model.mesh": "hermite", "beam.theory": "rayleigh"})["model.mesh"] == "hermite"

@@ -139,21 +139,27 @@ class Reader {
       }
     }
     choose_mesh(read);
-    choose_size(read);
+    const auto& size = descriptor_of(read.model.mesh).refinement;
+    if (size && !given_.contains(size->key)) make_room_for_strike(read);
     complain_of_missing_keys(read);
     complain_of_stiffness(read);
     LoadedCase loaded(name_, std::move(places));
     loaded.value = std::move(read);
     loaded.given = given_keys();
-    if (problems_.empty() && choose) loaded.chosen = choose(loaded.value, loaded.given);
     if (problems_.empty()) {
       try {
+        if (choose) loaded.chosen = choose(loaded.value, loaded.given);
         check(loaded.value);
       } catch (const InvalidCase& error) {
         problems_.push_back(loaded.message(error));
       }
     }
     if (!problems_.empty()) fail<CaseFileError>("{}", fmt::join(problems_, "\n"));
+    // The size that a setting names chooses the mesh.
+    const bool by_size = std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
+      return mesh.refinement && is_given(mesh.refinement->key, false);
+    });
+    if (by_size && !given_.contains("model.mesh")) loaded.given.in_settings.insert("model.mesh");
     return loaded;
   }
 
@@ -285,27 +291,11 @@ class Reader {
     read.model.mesh = default_mesh(read);
   }
 
-  // A mesh whose size is left open takes a strike close to an end.
-  void choose_size(Case& read) {
-    const auto& refinement = descriptor_of(read.model.mesh).refinement;
-    const double at = read.scene.striker.position;
-    const double to_end = std::min(at, 1.0 - at);
-    if (!refinement || given_.contains(refinement->key) || !(to_end > 0.0)) return;
-    int& count = read.model.*refinement->count;
-    const int needed = 2 * static_cast<int>(std::min(0.25 / to_end, 1e8)) + 2;
-    count = std::max(count, needed + (refinement->odd_in_half ? 1 : 0));
-  }
-
   GivenKeys given_keys() const {
     GivenKeys keys;
     for (const auto& [name, given] : given_) {
       (given.in_file ? keys.in_file : keys.in_settings).insert(name);
     }
-    // The size that a setting names chooses the mesh.
-    const bool by_size = std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
-      return mesh.refinement && is_given(mesh.refinement->key, false);
-    });
-    if (by_size && !given_.contains("model.mesh")) keys.in_settings.insert("model.mesh");
     return keys;
   }
 

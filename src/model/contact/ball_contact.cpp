@@ -30,7 +30,7 @@ ValueAndSlope displacement(double t, double poisson) {
 NoseOnBeam ball_on_beam(const BodiesOfBall& of) {
   const double scale = 1.5 * (1.0 + of.beam_poisson) / (M_PI * of.beam_modulus * of.depth);
   const auto compliance = [=](double a) -> ValueAndSlope {
-    const double of_shape = 0.375 / (of.modulus * a);
+    const double of_shape = 0.375 * (2.0 * of.of_ellipse - 1.0) / (of.modulus * a);
     if (std::isinf(of.depth)) return {of_shape, -of_shape / a};
     const auto [sum, slope] = displacement(a / of.depth, of.beam_poisson);
     return {of_shape - scale * sum, -of_shape / a - scale * slope / of.depth};

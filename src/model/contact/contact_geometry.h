@@ -15,6 +15,8 @@ struct GapRadii {
   double along, across;
   /// Equal but for rounding.
   bool is_circle() const { return std::abs(along - across) <= 1e-12 * along; }
+  /// Whether the surfaces touch in an ellipse, neither in a circle nor along a line.
+  bool is_ellipse() const { return std::isfinite(across) && !is_circle(); }
 };
 /// Radii of the gap between the nose (its radius is needed) and the struck surface, flat or round.
 GapRadii gap_radii(const Scene& scene);

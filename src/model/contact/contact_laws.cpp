@@ -56,20 +56,37 @@ double yield_pressure_of(const Scene& scene) {
   return scene.contact.yield_pressure.value_or(share * scene.beam.yield_stress);
 }
 
+// R of the contact: of a touch in an ellipse the geometric mean.
+double radius_of(const Scene& scene) {
+  const double nose = need(scene.striker.nose_radius);
+  const GapRadii radii = gap_radii(scene);
+  return radii.is_ellipse() ? std::sqrt(radii.along * radii.across) : nose;
+}
+
 // The pressure of a plastic contact; nothing where it does not yield.
 std::optional<MeanPressure> mean_pressure_of(const Scene& scene, MeanPressure::Nose nose) {
   const double pressure = yield_pressure_of(scene);
   if (scene.contact.kind == ContactKind::hertz || std::isinf(pressure)) return std::nullopt;
-  const double radius = need(scene.striker.nose_radius), modulus = 1.0 / compliance_of(scene);
+  const double radius = radius_of(scene), modulus = 1.0 / compliance_of(scene);
   return scene.contact.pressure_by_depth
              ? pressure_by_depth(nose, scene.beam.yield_stress, modulus, radius)
              : cut_off_pressure(nose, pressure, modulus, radius);
 }
 
 Law make_ball(const Scene& scene, const char* name) {
-  const BodiesOfBall bodies{need(scene.striker.nose_radius), 0.5 * scene.beam.height(),
-                            scene.beam.youngs_modulus, need(scene.beam_poisson()),
-                            1.0 / compliance_of(scene)};
+  const GapRadii radii = gap_radii(scene);
+  const double radius = radius_of(scene);
+  const double of_ellipse =
+      radii.is_ellipse()
+          ? std::pow(hertz_stiffness({radius, radius}, 1.0) / hertz_stiffness(radii, 1.0),
+                     2.0 / 3.0)
+          : 1.0;
+  const BodiesOfBall bodies{radius,
+                            scene.contact.is_from_mid_plane() ? 0.5 * scene.beam.height() : never,
+                            scene.beam.youngs_modulus,
+                            need(scene.beam_poisson()),
+                            1.0 / compliance_of(scene),
+                            of_ellipse};
   return std::make_shared<MidPlaneContact>(name, ball_on_beam(bodies),
                                            mean_pressure_of(scene, MeanPressure::Nose::ball));
 }
@@ -83,7 +100,8 @@ Law make_hertz(const Scene& scene) {
 }
 
 Law make_sphere(const Scene& scene) {
-  if (scene.contact.is_from_mid_plane()) return make_ball(scene, "sphere");
+  const Contact& contact = scene.contact;
+  if (contact.is_from_mid_plane() || contact.pressure_by_depth) return make_ball(scene, "sphere");
   const double radius = need(scene.striker.nose_radius), compliance = compliance_of(scene);
   const double pressure = yield_pressure_of(scene);
   if (std::isfinite(pressure)) {
@@ -168,8 +186,8 @@ constexpr const char* line_contact =
 
 constexpr const char* ellipse =
     "nose and surface touch in an ellipse, and the law is for a circle or a line; allowed: "
-    "contact.law = \"hertz\" with contact.indentation = \"half-space\", which has the ellipse and "
-    "does not yield, or a flat surface";
+    "contact.indentation = \"half-space\" with contact.law = \"hertz\", which does not yield, or "
+    "\"sphere\" with contact.yield_pressure = \"by-depth\"; or a flat surface";
 
 constexpr const char* rigid_plane =
     "beam.youngs_modulus is missing: the plane is rigid; allowed on it: \"linear\" or \"hertz\" "
@@ -178,8 +196,8 @@ constexpr const char* rigid_plane =
 
 constexpr const char* no_thickness =
     "the law follows the thickness of what is struck, and the plane has no size; allowed: "
-    "beam.thickness and beam.width, or contact.law = \"hertz\" or \"sphere\" with "
-    "contact.indentation = \"half-space\"";
+    "beam.thickness and beam.width, or, with striker.nose = \"sphere\", contact.law = \"hertz\" or "
+    "\"sphere\" with contact.indentation = \"half-space\"";
 
 // Why there is no mid-plane to measure from; empty where there is.
 std::string why_no_mid_plane(const Scene& scene, GapRadii radii) {
@@ -189,7 +207,7 @@ std::string why_no_mid_plane(const Scene& scene, GapRadii radii) {
     return "the indentation is measured from the mid-plane, and this section is hollow; allowed: "
            "contact.law = \"sphere\" or \"hertz\" with contact.indentation = \"half-space\"";
   }
-  return std::isnan(radii.along) || radii.is_circle() ? "" : ellipse;
+  return radii.is_ellipse() ? ellipse : "";
 }
 
 std::string why_no_columns(const Scene& scene, GapRadii /*radii*/) {
@@ -210,14 +228,7 @@ std::string why_no_circle(const Scene& scene, GapRadii radii) {
   if (std::isinf(radii.across)) return line_contact;
   if (scene.contact.is_from_mid_plane()) return why_no_mid_plane(scene, radii);
   if (is_rigid_plane(scene.beam) && !scene.contact.striker_modulus) return rigid_plane;
-  if (scene.contact.pressure_by_depth) {
-    return "contact.yield_pressure = \"by-depth\" is for indentations measured from the mid-plane; "
-           "allowed: contact.indentation = \"mid-plane\", or a number as "
-           "contact.yield_pressure";
-  }
-  if (std::isnan(radii.along) || radii.is_circle()) return {};
-  return "nose and surface touch in an ellipse, and the law is for a circle; allowed: \"hertz\", "
-         "which has the ellipse and does not yield, or a flat surface";
+  return scene.contact.pressure_by_depth || !radii.is_ellipse() ? "" : ellipse;
 }
 
 std::string why_no_line(const Scene& scene, GapRadii /*radii*/) {
@@ -288,8 +299,7 @@ std::optional<ContactPressure> contact_pressure(const Scene& scene, double force
   const bool is_line = contact.kind == ContactKind::line;
   const bool is_ball = contact.kind == ContactKind::sphere || contact.kind == ContactKind::hertz;
   if (contact.stiffness || !(is_line || is_ball) || !scene.striker.nose_radius) return {};
-  if (is_ball && !gap_radii(scene).is_circle()) return {};
-  const double radius = *scene.striker.nose_radius, modulus = 1.0 / compliance_of(scene);
+  const double radius = radius_of(scene), modulus = 1.0 / compliance_of(scene);
   const double width = scene.beam.outer_solid().width;
   const double elastic = is_line
                              ? std::sqrt(force * modulus / (M_PI * radius * width))

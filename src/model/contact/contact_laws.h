@@ -55,7 +55,7 @@ struct ContactPressure {
   double first_yield;  ///< Pa: a largest pressure; infinite where nothing that yields is given
 };
 /// At the largest force (N) of a strike. Nothing for laws without such a pressure: with a given
-/// stiffness, columns, a touch in an ellipse.
+/// stiffness, columns.
 std::optional<ContactPressure> contact_pressure(const Scene& scene, double force);
 
 }  // namespace subimpact

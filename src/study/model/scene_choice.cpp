@@ -26,9 +26,9 @@ constexpr double least_move = 5e-6;        // s, of the first parting
 constexpr double least_change = 0.01;      // of the other figures
 constexpr double scale_of_velocity = 0.1;  // of that of the first touch, at least
 
-bool is_allowed(const Case& input) {
+bool is_allowed(const Case& input, void (*rules)(const Case&) = check) {
   try {
-    check(input);
+    rules(input);
     return true;
   } catch (const InvalidCase&) {
     return false;
@@ -45,15 +45,21 @@ constexpr auto mid = IndentationFrom::mid_plane, half = IndentationFrom::half_sp
 constexpr LawChoice across[] = {
     {ContactKind::line, {}, "a cylinder across a solid beam"},
     {ContactKind::foundation, {}, "no better law for a cylinder on this section"}};
-constexpr LawChoice ball[] = {
-    {ContactKind::sphere, mid, "a ball on a solid beam that bends"},
-    {ContactKind::sphere, half, "a ball; the half-space knows nothing of bending walls"},
-    {ContactKind::hertz, mid, "a ball on a solid beam"},
-    {ContactKind::hertz, half, "a ball; the half-space knows nothing of bending walls"}};
+constexpr LawChoice ball[] = {{ContactKind::sphere, mid, "a ball on a solid beam that bends"},
+                              {ContactKind::sphere, half, nullptr},
+                              {ContactKind::hertz, mid, "a ball on a solid beam"},
+                              {ContactKind::hertz, half, nullptr}};
 constexpr LawChoice others[] = {
     {ContactKind::foundation, {}, "no better law for a ball on this section"},
     {ContactKind::linear, {}, "as given"},
     {ContactKind::curve, {}, "as measured"}};
+
+const char* why_half_space(const Case& input) {
+  const Beam& beam = input.scene.beam;
+  if (beam.gap().area() > 0.0) return "a ball; the half-space knows nothing of bending walls";
+  if (!descriptor_of(input.model.mesh).bends) return "a ball on a body that does not bend";
+  return beam.is_round() ? "nose and surface touch in an ellipse" : "a ball";
+}
 
 // The case with the law, by depth where that goes; nothing if given keys say otherwise.
 std::optional<Case> with_law(const Case& input, const GivenKeys& given, const LawChoice& choice) {
@@ -68,8 +74,7 @@ std::optional<Case> with_law(const Case& input, const GivenKeys& given, const La
   if (measures) contact.indentation = choice.from;
   if (!given.contain("contact.yield_pressure")) {
     const bool yields = choice.kind == ContactKind::line || choice.kind == ContactKind::sphere;
-    contact.pressure_by_depth =
-        yields && contact.is_from_mid_plane() && std::isfinite(input.scene.beam.yield_stress);
+    contact.pressure_by_depth = yields && std::isfinite(input.scene.beam.yield_stress);
   }
   return is_allowed(chosen) ? std::optional(chosen) : std::nullopt;
 }
@@ -89,28 +94,62 @@ std::vector<PossibleLaw> possible_laws(const Case& input, const GivenKeys& given
         return other.input.scene.contact.kind == law.kind && !law.from;
       });
       if (is_there) continue;
-      if (const auto chosen = with_law(input, given, law)) found.push_back({*chosen, law.reason});
+      const auto chosen = with_law(input, given, law);
+      if (chosen) found.push_back({*chosen, law.reason ? law.reason : why_half_space(input)});
     }
   };
-  if (input.scene.striker.nose != NoseShape::sphere) add(across);
-  if (input.scene.striker.nose != NoseShape::cylinder) add(ball);
+  const auto& nose = input.scene.striker.nose;
+  const bool is_round = input.scene.beam.is_round();  // so that any nose touches at a point
+  if (nose != NoseShape::sphere && !is_round) add(across);
+  if (nose != NoseShape::cylinder || is_round) add(ball);
   add(others);
   return found;
 }
 
-// A case with shear, on the mesh that follows if that is open.
-std::optional<Case> with_shear(const Case& input, const GivenKeys& given) {
+// The scene on the mesh that it has if the case names none.
+Case on_default_mesh(const Case& input) {
+  if (input.parts.mesh || !descriptor_of(input.model.mesh).bends) return input;
+  Case usual = input;
+  usual.model = {};
+  usual.model.section = input.model.section;
+  usual.model.layers = input.model.layers;
+  usual.model.mesh = default_mesh(usual);
+  make_room_for_strike(usual);
+  return usual;
+}
+
+std::optional<Case> with_shear(const Case& input) {
   Case sheared = input;
   sheared.scene.beam.theory = BeamTheory::timoshenko;
-  for (const char* key : {"model.spacing", "model.hinges", "model.strike_refinement",
-                          "model.refined_length", "model.sections_per_element"}) {
-    if (given.contain(key)) return std::nullopt;
-  }
-  if (!given.contain("model.mesh")) {
-    sheared.model.mesh =
-        given.contain("model.elements") ? MeshKind::spectral : default_mesh(sheared);
-  }
+  sheared = on_default_mesh(sheared);
   return is_allowed(sheared) ? std::optional(sheared) : std::nullopt;
+}
+
+// In place of a mesh that the case does not name, the one of the same size for the theory. Throws
+// InvalidCase where a mesh does not have the theory that was chosen.
+void set_mesh(Case& chosen, const Case& input, const GivenKeys& given, const std::string& why) {
+  MeshKind& mesh = chosen.model.mesh;
+  const auto& size = descriptor_of(mesh).refinement;
+  const bool is_by_size = !given.contain("model.mesh") && size;
+  for (const MeshDescriptor& other : meshes()) {
+    if (!is_by_size || descriptor_of(mesh).suits(chosen.scene.beam)) break;
+    if (other.refinement && other.refinement->count == size->count) mesh = other.kind;
+  }
+  try {
+    check_mesh(chosen);
+  } catch (const InvalidCase& error) {
+    Case otherwise = input;
+    otherwise.scene.beam.poisson = chosen.scene.beam.poisson;
+    const bool shears = chosen.scene.beam.shears();
+    otherwise.scene.beam.theory = shears ? BeamTheory::rayleigh : BeamTheory::timoshenko;
+    if (!is_allowed(otherwise, check_mesh)) throw;
+    throw InvalidCase(
+        error.key,
+        fmt::format("{} (beam.theory is open, and this scene {} shear: {}; to {}, write "
+                    "beam.theory = \"{}\")",
+                    error.what(), shears ? "needs" : "does not need", why,
+                    shears ? "leave it out" : "have it", shears ? "rayleigh" : "timoshenko"));
+  }
 }
 
 enum class Shear { moves, does_not, not_tested, law_ends };
@@ -233,19 +272,19 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
   const bool open_law = !input.parts.contact_law;
   const bool open_theory =
       !given.contain("beam.theory") && !input.parts.mesh && descriptor_of(input.model.mesh).bends;
-  Case base = input;
+  Case base = on_default_mesh(input);
   const bool knows_poisson = input.scene.beam_poisson().has_value();
   if (!knows_poisson) base.scene.beam.poisson = usual_poisson;
   std::vector<PossibleLaw> laws = {{base, nullptr}};
   if (open_law) laws = possible_laws(base, given);
   if (laws.empty()) return {};
   const PossibleLaw* law = &laws.front();
-  ShearTest test{Shear::not_tested, "this mesh cannot shear"};
+  ShearTest test{Shear::not_tested, "no mesh with shear takes this scene"};
   Case chosen;
   for (const PossibleLaw& candidate : laws) {
     law = &candidate;
     chosen = candidate.input;
-    const auto sheared = open_theory ? with_shear(chosen, given) : std::nullopt;
+    const auto sheared = open_theory ? with_shear(chosen) : std::nullopt;
     const bool is_last = law == &laws.back();
     if (!sheared) {
       if (is_last || !law_ends(chosen)) break;
@@ -274,6 +313,8 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
                           "contact.yield_pressure"}) {
     if (!given.contain(key) && find_case_key(key)->get(chosen)) keys.emplace_back(key);
   }
+  chosen.model = input.model;
+  if (open_theory) set_mesh(chosen, input, given, test.words);
   input = std::move(chosen);
   input.theory_is_chosen = open_theory;
   input.model_choice = fmt::format("{}", fmt::join(words, "; "));

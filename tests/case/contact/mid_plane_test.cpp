@@ -45,7 +45,7 @@ TEST(MidPlane, LawsAreRefusedWhereTheyDoNotHold) {
   expect_refused(with(line + half_space), "contact.law", "leave it out");
   expect_refused(with(line + Settings{{"striker.nose", "sphere"}}), "contact.law",
                  "a sphere does not touch along a line");
-  expect_refused(with(ball + by_depth), "contact.law", "contact.indentation = \"mid-plane\"");
+  EXPECT_NO_THROW(check(with(ball + by_depth)));  // from the half-space
   expect_refused(with(poisson + by_depth), "contact.yield_pressure",
                  "only \"sphere\" and \"line\" yield at it");
   expect_refused(with({{"contact.law", "line"}}), "contact.beam_poisson", "is missing");
@@ -103,6 +103,31 @@ TEST(MidPlane, ARunEndsWhereTheLineContactDoes) {
   const Result result = simulate(with(line + Settings{{"striker.velocity", 120.0}}, 1e-3));
   EXPECT_EQ(result.outcome.kind, OutcomeKind::left_validity);
   expect_in(result.outcome.message, "as wide as the law \"line\" allows");
+}
+
+// On a round bar a ball touches in an ellipse, and so does a cylinder across.
+TEST(MidPlane, ABallThatYieldsByDepthOnARoundBarIsHertzsEllipseBelow) {
+  const Settings circle{{"beam.section.shape", "circle"}, {"beam.section.diameter", 0.03}};
+  const auto law_of = [&](const Settings& settings) {
+    Case input = with(settings);
+    input.scene.beam.width = input.scene.beam.thickness = 0.0;
+    return make_contact_law(changed(input, circle).scene);
+  };
+  for (const char* nose : {"sphere", "cylinder"}) {
+    const Settings of_nose = steel + Settings{{"striker.nose", nose}};
+    const auto elastic = law_of(poisson + of_nose + Settings{{"contact.law", "hertz"}});
+    const auto yields = law_of(ball + of_nose + by_depth);
+    const double first = yields->yield_threshold({});
+    for (const double part : {0.01, 0.3, 1.0}) {
+      const double force = elastic->contact_force({}, part * first);
+      EXPECT_NEAR(yields->contact_force({}, part * first), force, 1e-9 * force) << nose;
+    }
+    EXPECT_LT(yields->contact_force({}, 1e-4), 0.5 * elastic->contact_force({}, 1e-4));
+  }
+  Case input = with(ball);
+  input.scene.beam.width = input.scene.beam.thickness = 0.0;
+  expect_refused(changed(input, circle + Settings{{"contact.yield_pressure", 4e8}}), "contact.law",
+                 "\"sphere\" with contact.yield_pressure = \"by-depth\"");
 }
 
 // From the mid-plane a contact is stiffer; from the axis of a very thick beam as from a half-space.

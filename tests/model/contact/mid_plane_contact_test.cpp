@@ -58,6 +58,9 @@ std::vector<Variant> variants() {
   add("ball, both elastic", ball(cut_off(Nose::ball, 1.6, of_steel), d, of_steel), 4e-4);
   add("ball, by depth", ball(by_depth(Nose::ball)), 4e-4);
   add("ball on a half-space", ball(cut_off(Nose::ball, 1.6), INFINITY), 4e-4);
+  add("ball on a half-space, by depth", ball(by_depth(Nose::ball), INFINITY), 4e-4);
+  add("touch in an ellipse, by depth",
+      {"sphere", ball_on_beam({R, INFINITY, E, nu, both(rigid), 0.9}), by_depth(Nose::ball)}, 4e-4);
   return all;
 }
 

@@ -1,6 +1,9 @@
 // Theory and contact law, chosen by the scene where the case leaves them open.
 
 #include "subimpact/study/model/scene_choice.h"
+
+#include <random>
+
 #include "elastic_case.h"
 #include "subimpact/case/simulate.h"
 #include "testing.h"
@@ -49,7 +52,77 @@ TEST(SceneChoice, OfABallIsASphereFromTheMidPlaneWhereTheBeamBends) {
   rigid.model.mesh = MeshKind::rigid;
   choose_scene(rigid, {});
   EXPECT_EQ(rigid.scene.contact.indentation, IndentationFrom::half_space);
+  EXPECT_TRUE(rigid.scene.contact.pressure_by_depth);
   EXPECT_FALSE(rigid.scene.beam.shears());
+  expect_in(rigid.model_choice, "a body that does not bend");
+}
+
+// A steel ball of 1 kg on a plane of S235 at 1 m/s; all its energy in a dent under 2.8 Y (Tabor):
+// 0.5 J = 2.8 Y pi R d^2.
+Case ball_on_plane() {
+  Case input;
+  Beam& beam = input.scene.beam;
+  beam.fixed = true;
+  beam.density = 7850.0;
+  beam.youngs_modulus = 210e9;
+  beam.yield_stress = 235e6;
+  beam.poisson = 0.3;
+  Striker& striker = input.scene.striker;
+  striker.mass = 1.0;
+  striker.velocity = 1.0;
+  striker.nose = NoseShape::sphere;
+  striker.nose_radius = 0.02;
+  input.scene.contact.striker_modulus = 210e9;
+  input.scene.contact.striker_poisson = 0.3;
+  input.model.mesh = MeshKind::rigid;
+  input.end_time = 1e-3;
+  return input;
+}
+
+TEST(SceneChoice, OfABallOnAPlaneYieldsByDepthAndPressesAsHardAsTaborSays) {
+  Case input = ball_on_plane();
+  choose_scene(input, {});
+  EXPECT_TRUE(input.scene.contact.pressure_by_depth);
+  const double hardness = 2.8 * 235e6, R = 0.02, depth = std::sqrt(0.5 / (M_PI * hardness * R));
+  const double force = hardness * 2.0 * M_PI * R * depth;
+  const Result result = simulate(input);
+  ASSERT_EQ(result.sub_impacts.size(), 1u);
+  EXPECT_NEAR(result.max_force, force, 0.15 * force);
+  EXPECT_LT(result.sub_impacts[0].residual_indentation, depth);
+  EXPECT_GT(result.sub_impacts[0].max_indentation, depth);
+  // Thornton's law as published has half the force.
+  input.scene.contact.pressure_by_depth = false;
+  EXPECT_LT(simulate(input).max_force, 0.6 * force);
+}
+
+TEST(SceneChoice, OfACylinderOnAPlaneIsALineByDepthWhereThePlaneHasAThickness) {
+  Case input = ball_on_plane();
+  input.scene.striker.nose = NoseShape::cylinder;
+  Case thick = input;
+  EXPECT_TRUE(choose_scene(input, {}).empty());
+  EXPECT_THROW(check(input), InvalidCase);  // a half-space gives it no finite indentation
+  thick.scene.beam.width = 0.05;
+  thick.scene.beam.thickness = 0.1;
+  choose_scene(thick, {});
+  EXPECT_EQ(thick.scene.contact.kind, ContactKind::line);
+  EXPECT_TRUE(thick.scene.contact.pressure_by_depth);
+  EXPECT_TRUE(simulate(thick).outcome.completed());
+}
+
+TEST(SceneChoice, OnAPlaneIsThatOnAVeryHeavyBlock) {
+  Case plane = ball_on_plane(), block = plane;
+  Beam& beam = block.scene.beam;
+  beam.fixed = false;
+  beam.length = 10.0;
+  beam.width = beam.thickness = 1.0;
+  choose_scene(plane, {});
+  choose_scene(block, {});
+  EXPECT_EQ(block.scene.contact.kind, plane.scene.contact.kind);
+  const double mass = beam.mass();
+  const Result on_plane = simulate(plane), on_block = simulate(block);
+  const double change = on_block.max_force / on_plane.max_force - 1.0;
+  EXPECT_LT(change, 0.0);  // the energy of the reduced mass m M/(m + M)
+  EXPECT_NEAR(change, 0.0, 1.0 / mass);
 }
 
 TEST(SceneChoice, OnAHollowSectionTakesABallOnTheHalfSpaceAndSaysWhatThatLacks) {
@@ -60,16 +133,98 @@ TEST(SceneChoice, OnAHollowSectionTakesABallOnTheHalfSpaceAndSaysWhatThatLacks) 
   choose_scene(input, {});
   EXPECT_EQ(input.scene.contact.kind, ContactKind::sphere);
   EXPECT_EQ(input.scene.contact.indentation, IndentationFrom::half_space);
+  EXPECT_TRUE(input.scene.contact.pressure_by_depth);
   expect_in(input.model_choice, "bending walls");
   EXPECT_NO_THROW(check(input));
 }
 
-TEST(SceneChoice, IsRayleighOnMeshesThatCannotShear) {
-  Case input = yielding_case();
+TEST(SceneChoice, OnARoundBeamIsABallByDepthWhateverTheNose) {
+  for (const bool is_tube : {false, true}) {
+    Case input = yielding_case();
+    Beam& beam = input.scene.beam;
+    beam.section = {is_tube ? SectionShape::tube : SectionShape::circle, {}, {}, 0.03};
+    if (is_tube) beam.section.wall = 0.003;
+    beam.thickness = beam.width = 0.0;
+    for (const auto nose : {std::optional<NoseShape>(), std::optional(NoseShape::sphere),
+                            std::optional(NoseShape::cylinder)}) {
+      Case of_nose = input;
+      of_nose.scene.striker.nose = nose;
+      choose_scene(of_nose, {});
+      EXPECT_EQ(of_nose.scene.contact.kind, ContactKind::sphere);
+      EXPECT_EQ(of_nose.scene.contact.indentation, IndentationFrom::half_space);
+      EXPECT_TRUE(of_nose.scene.contact.pressure_by_depth);
+      EXPECT_NO_THROW(check(of_nose));
+    }
+  }
+}
+
+// As a case with --set model.elements = 40 and nothing else is read.
+Case with_elements(Case input, int elements) {
   input.model.mesh = MeshKind::hermite;
-  choose_scene(input, {{"model.mesh"}, {}});
+  input.model.elements = elements;
+  return input;
+}
+
+TEST(SceneChoice, OfElementsAloneIsThatOfTheSceneWithTheElementsOfItsTheory) {
+  std::mt19937 random(32);
+  const auto draw = [&](double least, double most) {
+    return least * std::pow(most / least, std::uniform_real_distribution<>()(random));
+  };
+  int sheared = 0;
+  constexpr int scenes = 24;
+  for (int i = 0; i < scenes; ++i) {
+    Case input = yielding_case();
+    Beam& beam = input.scene.beam;
+    beam.thickness = draw(1e-3, 2e-2);
+    beam.length = beam.thickness * draw(10.0, 300.0);
+    beam.width = draw(0.01, 0.05);
+    if (i % 2 == 0) beam.ends = {EndSupport::pinned, EndSupport::pinned};
+    if (i % 3 == 0) beam.yield_stress = INFINITY;
+    Striker& striker = input.scene.striker;
+    striker.mass = beam.mass() * draw(0.01, 5.0);
+    striker.velocity = draw(0.01, 5.0);
+    striker.position = draw(0.3, 0.97);
+    if (i % 4 == 1) striker.nose = NoseShape::sphere;
+    GivenKeys given;
+    if (i % 4 == 3) {  // a soft pad
+      input.scene.contact.kind = ContactKind::linear;
+      input.scene.contact.stiffness = draw(1e2, 1e6);
+      given.in_file = {"contact.law", "contact.stiffness"};
+    }
+    input.end_time = draw(1e-4, 2e-3);
+    Case meshed = with_elements(input, 40);
+    const auto keys = choose_scene(input, given);
+    given.in_settings = {"model.elements"};
+    EXPECT_EQ(choose_scene(meshed, given), keys);
+    EXPECT_EQ(meshed.scene.beam.theory, input.scene.beam.theory) << i;
+    EXPECT_EQ(meshed.scene.contact.kind, input.scene.contact.kind) << i;
+    EXPECT_EQ(meshed.scene.contact.pressure_by_depth, input.scene.contact.pressure_by_depth) << i;
+    EXPECT_EQ(meshed.model_choice, input.model_choice) << i;
+    EXPECT_EQ(meshed.model.elements, 40);
+    EXPECT_EQ(meshed.model.mesh,
+              input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite);
+    sheared += input.scene.beam.shears() ? 1 : 0;
+  }
+  EXPECT_GT(sheared, 0);
+  EXPECT_LT(sheared, scenes);
+}
+
+TEST(SceneChoice, RefusesAMeshWithoutTheShearThatTheSceneNeedsUnlessTheTheoryIsNamed) {
+  Case input = with_elements(yielding_case(), 40);
+  try {
+    choose_scene(input, {{"model.mesh"}, {}});
+    FAIL() << "Hermite elements do not shear";
+  } catch (const InvalidCase& error) {
+    EXPECT_EQ(error.key, "model.mesh");
+    expect_in(error.what(), "\"cells\"", "\"spectral\"",
+              "this scene needs shear: ", "to leave it out, write", "beam.theory = \"rayleigh\"");
+  }
+  choose_scene(input, {{"model.mesh", "beam.theory"}, {}});
   EXPECT_FALSE(input.scene.beam.shears());
-  expect_in(input.model_choice, "this mesh cannot shear");
+  EXPECT_EQ(input.model.mesh, MeshKind::hermite);
+  Case points = yielding_case();
+  points.model.spacing = CellSpacing::points;
+  EXPECT_THROW(choose_scene(points, {{"model.spacing"}, {}}), InvalidCase);
 }
 
 TEST(SceneChoice, IsRayleighWhereATestShowsThatShearDoesNotMatter) {

@@ -10,17 +10,21 @@
 
 namespace subimpact {
 
-/// Chooses theory and contact law where `given` leaves them open, by the scene, the time it is
-/// followed and what given mesh keys can model: the same with any number of cells, method, rtol and
-/// error bars. Returns the keys that were chosen.
+/// Chooses theory and contact law where `given` leaves them open, by the scene and the time it is
+/// followed: the same with any mesh, method, rtol and error bars. Returns the keys that were
+/// chosen.
 ///
-///   - contact.law by the nose and the section: a cylinder on a solid flat beam is a `line`, a ball
-///     a `sphere` (from the mid-plane where the beam bends); what these do not describe gets the
-///     half-space, or `foundation`. Without striker.nose it is a cylinder.
+///   - contact.law by the nose and the section: a cylinder on a solid flat beam is a `line`, a
+///   ball,
+///     and any nose on a round section, a `sphere` (from the mid-plane where the section is solid
+///     and flat and the beam bends, else from a half-space); what these do not describe gets
+///     `hertz` or `foundation`. Without striker.nose it is a cylinder.
 ///   - contact.yield_pressure by the depth of the dent, where the law has it.
 ///   - beam.theory with shear, unless two coarse runs show that it moves the end of the first
 ///     contact parted by more than 1 um by less than 5 us (accuracy.event_times, if smaller), and
-///     largest force, final velocity and set by less than 1 %; and on meshes that cannot shear.
+///     largest force, final velocity and set by less than 1 %.
+///   - model.mesh, where model.elements alone is given, by the theory. A given mesh that does not
+///     have the theory chosen throws InvalidCase.
 ///   - beam.poisson 0.3, where theory or law need it.
 ///
 /// Case::model_choice says why. simulate(Case) computes the case as it is, with the defaults of the
