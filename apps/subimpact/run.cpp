@@ -207,6 +207,7 @@ int run(RunOptions& options) {
     }
     add_scatter(run, options, listener);
     run.result.next_steps = next_steps(options, loaded.given, run);
+    make_answers(run.input, run.result);
     return run;
   });
   const Case& input = finished.input;
@@ -215,12 +216,13 @@ int run(RunOptions& options) {
   // Before anything is printed: the reader of a pipe may leave early and end the program.
   const std::string unwritten = write(files, input, result);
   if (!options.quiet || !unwritten.empty()) {
-    print("{}{}\n{}", run_summary(input, result, options.verbose),
-          next_lines(result.next_steps,
-                     unwritten.empty() ? files.directory().path().string() : std::string()),
+    print("{}\n{}", run_summary(input, result, options.verbose),
           sub_impact_table(result, !options.all));
     if (!result.strikes.empty()) print("\n{}", strike_table(result, options.all));
     if (result.predictability) print("\n{}", scatter_table(result));
+    print("\n{}",
+          next_lines(result.next_steps,
+                     unwritten.empty() ? files.directory().path().string() : std::string()));
     if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
   }

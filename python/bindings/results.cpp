@@ -32,6 +32,7 @@ py::array table_named(const Finished& run, const std::string& name) {
 
 Finished read(const std::string& directory) {
   FinishedRun run = read_results(directory);
+  make_answers(run.input, run.result);
   return {std::move(run.input), std::move(run.result)};
 }
 

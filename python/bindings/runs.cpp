@@ -7,6 +7,7 @@
 #include "bindings.h"
 #include "finished.h"
 #include "overseer.h"
+#include "subimpact/report/text.h"
 #include "subimpact/study/run_as_asked.h"
 #include "subimpact/study/sensitivity/predictability.h"
 
@@ -29,6 +30,7 @@ WithinRun run_and_predict(const LoadedCase& loaded, RunRequest request, Overseer
   how.progress = [&overseer](double) { return overseer.goes_on(); };
   WithinRun run = run_as_asked(loaded.value, loaded.given, std::move(request));
   if (run.result.outcome.completed()) add_predictability(run.result, run.input, how);
+  make_answers(run.input, run.result);
   return run;
 }
 

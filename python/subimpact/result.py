@@ -90,6 +90,18 @@ class Result:
         return summary
 
     @property
+    def answers(self) -> list[dict[str, Any]]:
+        """The main numbers of the run, each with the errors of computation and body: `summary["answers"]`."""
+        answers: list[dict[str, Any]] = self.summary["answers"]
+        return answers
+
+    @property
+    def verdict(self) -> dict[str, Any]:
+        """First words on the run, and their kinds: `summary["verdict"]`."""
+        verdict: dict[str, Any] = self.summary["verdict"]
+        return verdict
+
+    @property
     def case(self) -> Case:
         """The case that was run, with every choice made: of mesh, method, theory ..."""
         from .case import Case

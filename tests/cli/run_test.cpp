@@ -40,7 +40,7 @@ Finished run_here(const TemporaryDirectory& directory, const Words& settings = {
 TEST_F(ARun, WritesItsFilesAndPrintsTheTable) {
   const Finished finished = run_here(directory);
   EXPECT_EQ(finished.errors, "");  // progress is for terminals
-  expect_in(unwrapped(finished.output), ": 20 us computed in ", "peak force", "zone 1", "(open)");
+  expect_in(unwrapped(finished.output), "1 sub-impact in 20 us, ", "peak force", "zone 1", "(open)");
   const auto summary = summary_of(directory);
   EXPECT_EQ(summary.at("outcome").at("kind"), "completed");
   EXPECT_EQ(summary.at("case").at("time").at("end"), 2e-5);
@@ -317,7 +317,8 @@ TEST_F(RunWithin, AFixedMeshThatCannotMeetTheWishEndsWithStatus0AndTheReason) {
 
 // The first touch is the only event time, and a mesh that the contact outlasts is doubted.
 TEST_F(ARun, ThatEndsWithinTheFirstContactStatesNoErrorOfItsEnd) {
-  const Finished run = run_in(directory, paper("run", {"time.end=3.71e-5", "output.interval=0"}));
+  const Finished run =
+      run_in(directory, paper("run", {"time.end=3.71e-5", "output.interval=0"}, {"--verbose"}));
   expect_in(unwrapped(run.output),
             "no event time up to 37.1 us but the first touch, which is exact",
             "1 sub-impact, 0 us to the end of the run", "\n   1             0        (open)");

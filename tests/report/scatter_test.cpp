@@ -128,15 +128,17 @@ TEST(Predictability, IsPrintedWithTheReasonWhereItEnds) {
   const std::string table = scatter_table(predicted());
   expect_in(table, "333.3 +- 1.7", "from here on not predictable: its start scatters\n", "zone 1");
   expect_in(predictability_words(predicted()), "1 of 3 sub-impacts, up to 333.3 us");
-  expect_in(run_summary(read("").value, predicted()), "predictable", "scatter: force",
+  Result result = predicted();
+  make_answers(read("").value, result);
+  expect_in(run_summary(read("").value, result), "predictable", "scatter: force",
             "900 +- 12 N");
 }
 
 TEST(Samples, ArePrintedWithTheirNumberAndMeshAndWithoutWhatThereIsNot) {
-  const std::vector<Answer> answers = scatter_answers(predicted());
+  const std::vector<LabelledText> answers = scatter_answers(predicted());
   ASSERT_EQ(answers.size(), 1u);  // there is no permanent set
-  EXPECT_EQ(answers[0].name, "scatter: force");
-  EXPECT_EQ(answers[0].value, "900 +- 12 N");
+  EXPECT_EQ(answers[0].label, "scatter: force");
+  EXPECT_EQ(answers[0].text, "900 +- 12 N");
   expect_in(answers[0].note, "from 880 to 921", "64 runs on 101 cells");
 }
 

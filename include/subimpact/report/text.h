@@ -62,21 +62,23 @@ std::vector<std::pair<std::string, std::string>> error_part_words(const Result& 
 /// spring"; empty for a beam at rest without loads and springs.
 std::string others_in_scene(const Scene& scene);
 
-/// One main result of a strike: a line of the summary, a tile of the page.
-struct Answer {
-  std::string name;   ///< "largest force"
-  std::string value;  ///< "8925 +- 4 N"
-  std::string note;   ///< "at 1395 us, in sub-impact 11"; may be empty
+/// A number of a run in words: a line of the screen, a tile of a page.
+struct LabelledText {
+  std::string label;  ///< "scatter: force"
+  std::string text;   ///< "8925 +- 4 N"
+  std::string note;   ///< may be empty
 };
-/// Who struck whom, how many sub-impacts and how certain, restitution, largest force, impulse by
-/// zone, dent, permanent set, energies that add up to the initial one, whether contact is over.
-std::vector<Answer> answers(const Case& input, const Result& result);
+
+/// Sets Result::answers and Result::verdict, with their words: the only place that makes them.
+void make_answers(const Case& input, Result& result);
 
 /// Numbers of the strike as a whole over the samples of a case with scatter: "scatter: force".
-std::vector<Answer> scatter_answers(const Result& result);
+std::vector<LabelledText> scatter_answers(const Result& result);
 
-/// The title, the answers and the warnings, one line each, wrapped at 100 columns. `verbose` adds
-/// mesh, method, errors by source, conservation and work.
+/// The title and the strike, the verdict, a table of the answers with both errors of each, what the
+/// largest errors of the body come from and what to do about them, doubts and warnings; lines of at
+/// most 100 columns. `verbose` adds notes, all parts, mesh, method, errors by source, conservation
+/// and work. Of a result with answers (make_answers).
 std::string run_summary(const Case& input, const Result& result, bool verbose = false);
 
 /// For a run that did not complete: one line with time, mode, method, last event, cause, the times

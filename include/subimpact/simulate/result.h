@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "subimpact/ode/work_counts.h"
+#include "subimpact/simulate/answers.h"
 #include "subimpact/simulate/assessment.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/records.h"
@@ -315,6 +316,8 @@ struct Result : Assessment {
   /// Warnings about results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
   std::vector<NextStep> next_steps;  ///< of `subimpact run` alone
+  std::vector<Answer> answers;       ///< in the order of the screen; empty until they are made
+  StrikeVerdict verdict;
   Work work;
 
   /// Whether the whole result passed every check. If not, the part up to

@@ -1,6 +1,7 @@
 #include "io/records/run_record.h"
 
 #include "case/refuse.h"
+#include "io/records/answer_record.h"
 
 #include "subimpact/case/case_keys.h"
 
@@ -371,6 +372,8 @@ Record<DescribedRun> make_run_record() {
       {"choice", "why mesh and method are what they are", result(&Result::choice)},
       {"model_choice", "why theory and contact law are what they are, if they were chosen", [](auto& run) -> auto& { return run.input->model_choice; }},
       {"model_errors", "errors of the model itself; null: not estimated", result(&Result::model_errors), model_record},
+      {"verdict", "first words on the run", [](const DescribedRun& run) { return std::optional(run.result->verdict); }, verdict_record()},
+      {"answers", "main numbers of the run, each with both of its errors, in the order of the screen", [](const DescribedRun& run) { return run.result->answers; }, answer_record()},
       {"warnings", "warnings about results that passed all checks", result(&Result::warnings)},
       {"next", "what can be done from here", result(&Result::next_steps), next_step_record},
       {"counts.sub_impacts", "number of sub-impacts", [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},

@@ -34,22 +34,27 @@ Json differing_keys(const std::vector<FinishedRun>& runs) {
 
 // What is asked of each run first, and how it was computed.
 Json answer_rows(const std::vector<FinishedRun>& runs) {
-  std::vector<std::vector<Answer>> all;
+  std::vector<std::vector<LabelledText>> all;
   std::vector<std::string> names;
   for (const FinishedRun& run : runs) {
-    std::vector<Answer>& list = all.emplace_back(answers(run.input, run.result));
+    Result result = run.result;
+    make_answers(run.input, result);
+    std::vector<LabelledText>& list = all.emplace_back();
+    for (const Answer& answer : result.answers) {
+      if (answer.value) list.push_back({answer.label, answer.text, ""});
+    }
     list.push_back({"outcome", std::string(to_string(run.result.outcome.kind)), ""});
     list.push_back({"mesh", run.result.used.mesh, ""});
     list.push_back({"method", std::string(to_string(run.input.solver.method)), ""});
     list.push_back({"time to compute", duration_text(run.result.work.all_seconds), ""});
-    for (const Answer& answer : list) {
-      if (std::ranges::find(names, answer.name) == names.end()) names.push_back(answer.name);
+    for (const LabelledText& answer : list) {
+      if (std::ranges::find(names, answer.label) == names.end()) names.push_back(answer.label);
     }
   }
   return list_of(names, [&](const std::string& name) -> Json {
-    const auto value_in = [&](const std::vector<Answer>& list) {
-      const auto found = std::ranges::find(list, name, &Answer::name);
-      return found == list.end() ? std::string("–") : in_print(found->value);
+    const auto value_in = [&](const std::vector<LabelledText>& list) {
+      const auto found = std::ranges::find(list, name, &LabelledText::label);
+      return found == list.end() ? std::string("–") : in_print(found->text);
     };
     return {{"name", name}, {"values", list_of(all, value_in)}};
   });

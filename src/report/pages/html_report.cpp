@@ -68,12 +68,10 @@ Json headlines(const Result& result) {
   return list;
 }
 
-Json tiles(const std::vector<Answer>& all) {
-  return list_of(all, [](const Answer& answer) -> Json {
-    const bool of_zone = answer.name.starts_with("  zone");  // on the screen below the impulse
-    return {{"name", (of_zone ? "impulse of" : "") + answer.name.substr(of_zone ? 1 : 0)},
-            {"value", in_print(answer.value)},
-            {"note", in_print(answer.note)}};
+Json tiles(const std::vector<LabelledText>& all) {
+  return list_of(all, [](const LabelledText& answer) -> Json {
+    return {
+        {"name", answer.label}, {"value", in_print(answer.text)}, {"note", in_print(answer.note)}};
   });
 }
 
@@ -107,41 +105,30 @@ void add_certainty(Json& page, const Result& result) {
   page["verdict_opens"] = opens.empty() ? "Why" : opens;
 }
 
-// Until when the bodies touch each other.
-void add_times(std::vector<Answer>& first, const Result& result) {
-  if (result.sub_impacts.empty()) return;
-  const SubImpact& last = result.sub_impacts.back();
-  const double end = result.end_of(last);
-  first.push_back({"last contact ends",
-                   !last.end        ? "not yet"
-                   : last.end_error ? text_of(Total{end, last.end_error}, as_instant)
-                                    : plain_text(end, as_instant),
-                   ""});
-}
-
 Json next_steps(const Result& result) {
   return list_of(result.next_steps, [](const NextStep& step) -> Json {
     return {{"command", step.command}, {"gain", in_print(step.gain)}};
   });
 }
 
+Result with_answers(const FinishedRun& run) {
+  Result result = run.result;
+  make_answers(run.input, result);
+  return result;
+}
+
 // Answers of the first screen, those about the model, all others.
-void add_answers(Json& page, const Case& input, const Result& result) {
-  const std::vector<Answer> all = answers(input, result);
-  const bool one_zone = !result.sub_impacts.empty() && result.sub_impacts.back().zone == 1;
-  std::vector<Answer> first, model, further;
-  // The first answer, who struck whom, is in the line at the top.
-  for (auto answer = all.begin() + 1; answer != all.end(); ++answer) {
-    const std::string& name = answer->name;
-    const bool is_first = name == "sub-impacts" || name == "largest force" ||
-                          name == "permanent set" || name == "contact over";
-    if (one_zone && name.starts_with("  zone")) {  // its impulse and end are those of the run
-      further.push_back({"in the zone", answer->note.substr(0, answer->note.rfind(", ")), ""});
-      continue;
-    }
-    (is_first ? first : name.starts_with("model") ? model : further).push_back(*answer);
+void add_answers(Json& page, const Result& result) {
+  std::vector<LabelledText> first, model, further;
+  for (const Answer& answer : result.answers) {
+    if (!answer.value) continue;
+    using enum AnswerKey;
+    const bool is_first = answer.key == sub_impacts || answer.key == largest_force ||
+                          answer.key == permanent_set || answer.key == contact_end;
+    (is_first ? first : further).push_back({answer.label, answer.text, answer.note});
+    const std::string errors = "+- " + answer.error_text + " computed, +- " + answer.body_text;
+    if (!answer.parts.empty()) model.push_back({answer.label, answer.text, errors + " body"});
   }
-  add_times(first, result);
   page["tiles"] = tiles(first);
   page["further"] = tiles(further);
   page["model"] = tiles(model);
@@ -210,7 +197,7 @@ Measured read_measured(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "measured.json";
   read_json(path, read_whole_file(path), "a comparison with a measurement", "report again",
             [&](const auto& json) {
-              std::vector<Answer> found;
+              std::vector<LabelledText> found;
               for (const auto& answer : json.at("answers")) {
                 found.push_back({answer.at("name"), answer.at("value"), answer.at("note")});
               }
@@ -303,7 +290,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"has_next", !result.next_steps.empty()},
       {"measured", comparison.section},
       {"flights", flights(result.error_estimate)},
-      {"summary", in_print(run_summary(run.input, result, true))},
+      {"summary", in_print(run_summary(run.input, with_answers(run), true))},
       {"figures", figure_list(drawn)},
       {"no_figures", drawn.empty()},
       {"left_out", figures.left_out},
@@ -311,7 +298,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
          return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
        })}};
   add_certainty(page, result);
-  add_answers(page, run.input, result);
+  add_answers(page, with_answers(run));
   add_sub_impacts(page, result);
   return whole_page("pages/web/report.html", page, chart_library(dygraphs),
                     {"pages/web/data.js", "pages/web/axes.js", "pages/web/surroundings.js",

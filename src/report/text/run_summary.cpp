@@ -5,7 +5,8 @@
 
 #include "case/counted.h"
 #include "io/printable.h"
-#include "numerics/units.h"
+#include "report/text/body_words.h"
+#include "report/text/strike_words.h"
 #include "report/text/uncertain.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/report/text.h"
@@ -16,16 +17,15 @@ namespace {
 constexpr std::size_t line_width = 100;
 constexpr int label_width = 19;
 
-// A label and what belongs to it, on lines of at most line_width.
-std::string labelled(const std::string& label, const std::string& words) {
-  std::string text = fmt::format("  {:<{}}", label, label_width);
+// Words after a beginning, on lines of at most line_width; further lines begin at `indent`.
+std::string wrapped(const std::string& words, std::string text = " ", std::size_t indent = 1) {
   std::size_t column = text.size();
   for (std::size_t at = 0; at < words.size();) {
     std::size_t end = std::min(words.find(' ', at), words.size());
     while (words.substr(end, 4) == " +- ") end = std::min(words.find(' ', end + 4), words.size());
-    if (column + 1 + end - at > line_width && column > label_width + 2) {
-      text += fmt::format("\n{:{}}", "", label_width + 2);
-      column = label_width + 2;
+    if (column + 1 + end - at > line_width && column > indent) {
+      text += fmt::format("\n{:{}}", "", indent);
+      column = indent;
     }
     text += ' ' + words.substr(at, end - at);
     column += 1 + end - at;
@@ -34,14 +34,119 @@ std::string labelled(const std::string& label, const std::string& words) {
   return text + '\n';
 }
 
+// A label and what belongs to it.
+std::string labelled(const std::string& label, const std::string& words) {
+  return wrapped(words, fmt::format("  {:<{}}", label, label_width), label_width + 2);
+}
+
 std::string time_or_never(const std::optional<double>& time) {
   return time ? time_text(*time) : "never";
+}
+
+constexpr double felt = 0.2;           // share of an error of the body
+constexpr std::size_t most_zones = 4;  // with a row of their own
+
+// A row of the table of answers.
+struct Row {
+  std::string label, text, error, body, part;
+};
+
+bool is_shown(const Answer& answer, bool verbose) {
+  const bool is_minor = answer.key == AnswerKey::indentation ||
+                        answer.key == AnswerKey::contact_pressure || answer.key == AnswerKey::zones;
+  return answer.value && (verbose || !is_minor);
+}
+
+std::vector<Row> rows_of(const Result& result, bool verbose) {
+  std::vector<Row> rows;
+  for (const Answer& answer : result.answers) {
+    if (is_shown(answer, verbose)) {
+      const bool has_part =
+          !answer.parts.empty() && answer.parts.front().change.value_or(0.0) > 0.0;
+      rows.push_back({answer.label, answer.text, answer.error_text, answer.body_text,
+                      has_part ? answer.parts.front().label : ""});
+    }
+    if (answer.items.size() < 2) continue;
+    for (const Answer::Item& zone : answer.items) {
+      if (zone.number > static_cast<int>(most_zones)) break;
+      rows.push_back({fmt::format("  zone {}", zone.number), zone.text, {}, {}, {}});
+    }
+  }
+  return rows;
+}
+
+// One answer a row, with both of its errors.
+std::string answer_table(const Result& result, bool verbose) {
+  std::vector<Row> rows = rows_of(result, verbose);
+  rows.insert(rows.begin(), {"", "", "+- computed", "+- body", "mostly of"});
+  const auto width_of = [&](std::string Row::*cell) {
+    std::size_t width = 0;
+    for (const Row& row : rows) {
+      if (!row.error.empty() || !row.body.empty()) width = std::max(width, (row.*cell).size());
+    }
+    return width;
+  };
+  const std::size_t text = width_of(&Row::text), error = width_of(&Row::error),
+                    body = width_of(&Row::body);
+  std::string table;
+  for (const Row& row : rows) {
+    const std::string line =
+        fmt::format("  {:<{}} {:<{}}  {:>{}}  {:>{}}  {}", row.label, label_width, row.text, text,
+                    row.error, error, row.body, body, row.part);
+    table += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  }
+  return table;
+}
+
+// The parts that matter for an answer that is shown, each once, with what to do about it; then what
+// is in no error.
+std::string body_words(const Result& result, bool verbose) {
+  std::vector<Answer::Part> felt_parts;
+  for (const Answer& answer : result.answers) {
+    double sum = 0.0;
+    for (const Answer::Part& part : answer.parts) sum += part.change.value_or(0.0);
+    for (const Answer::Part& part : answer.parts) {
+      if (part.change && !(*part.change > felt * sum)) continue;
+      if (std::ranges::count(felt_parts, part.kind, &Answer::Part::kind) == 0) {
+        felt_parts.push_back(part);
+        if (!part.change) felt_parts.back().remedy = "not known: no run on a coarse mesh shows it";
+      }
+    }
+  }
+  std::string text;
+  for (const Answer::Part& part : felt_parts) text += labelled(part.label, part.remedy);
+  if (verbose) {
+    for (const Answer& answer : result.answers) {
+      std::string words;
+      for (const Answer::Part& part : answer.parts) {
+        words += fmt::format("{}{} {}", words.empty() ? "" : ", ", part.label, part.text);
+      }
+      if (!words.empty()) text += labelled("", answer.label + ": " + words);
+    }
+  }
+  if (result.model_errors && result.verdict.beam == StrikeVerdict::Beam::bent) {
+    text += labelled("in no error", "rates of strain, the length of the hinge but in the set");
+  }
+  return text;
+}
+
+// What answers say beside their numbers.
+std::string notes(const Result& result) {
+  std::string text;
+  for (const Answer& answer : result.answers) {
+    if (answer.note.empty()) continue;
+    text += labelled(answer.label, (answer.value ? "" : "none: ") + answer.note);
+    for (const Answer::Item& zone : answer.items) {
+      text += labelled(fmt::format("  zone {}", zone.number), zone.text);
+    }
+  }
+  return text;
 }
 
 // The mesh, the method, their errors by source, what they cost and what they conserve.
 std::string details(const Case& input, const Result& result) {
   const Work& work = result.work;
-  std::string text = "\n";
+  std::string text;
   const auto line = [&](const std::string& label, const std::string& words) {
     text += labelled(label, words);
   };
@@ -58,9 +163,10 @@ std::string details(const Case& input, const Result& result) {
                                   time_or_never(result.first_section_yield),
                                   time_or_never(result.first_contact_yield),
                                   result.n_yielded_sections, result.used.n_sections));
-  line("model", fmt::format("{}; section {}; {}", result.used.mesh,
-                            to_text(*find_case_key("model.section")->get(input)),
-                            counted(result.used.n_unknowns, "unknown")));
+  if (!input.model_choice.empty()) line("theory, contact", input.model_choice);
+  line("mesh", fmt::format("{}; section {}; {}", result.used.mesh,
+                           to_text(*find_case_key("model.section")->get(input)),
+                           counted(result.used.n_unknowns, "unknown")));
   if (!result.choice.empty()) line("chosen because", printable(result.choice));
   if (result.error_estimate) {
     for (const auto& [name, words] : error_part_words(result)) line(name, words);
@@ -74,9 +180,12 @@ std::string details(const Case& input, const Result& result) {
            : fmt::format(
                  "energy to {:.1e}, relative; momentum is not conserved: the supports take it up",
                  result.max_energy_error));
-  line("work", fmt::format("{}, {} rejected, {}, {}; {}", counted(work.steps, "step"),
-                           work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
-                           counted(work.roots, "event"), duration_text(work.wall_seconds)));
+  line("work",
+       fmt::format("{}, {} rejected, {}, {}; {}", counted(work.steps, "step"), work.rejected_steps,
+                   counted(work.right_hand_sides, "right-hand side"), counted(work.roots, "event"),
+                   duration_text(work.wall_seconds)) +
+           (work.all_seconds > 0.0 ? "; with the runs beside it " + duration_text(work.all_seconds)
+                                   : ""));
   return text;
 }
 
@@ -87,11 +196,12 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
   const auto line = [&](const char* label, const std::string& words) {
     text += labelled(label, words);
   };
+  text += wrapped(strike_words(input, result));
   if (const std::string caveat = outcome_caveat(result); !caveat.empty()) line("outcome", caveat);
   if (result.tolerance) line("tolerance", tolerance_words(*result.tolerance, result));
-  for (const Answer& answer : answers(input, result)) {
-    text += labelled(answer.name, answer.value + (answer.note.empty() ? "" : ": " + answer.note));
-  }
+  text += wrapped(result.verdict.text) + '\n' + answer_table(result, verbose) + '\n' +
+          body_words(result, verbose);
+  if (!result.all_certain()) line("not certain", error_words(result));
   if (result.error_estimate && !error_of_total(result, RunTotal::impulse)) {
     line("errors", "a run beside did not complete, so errors of totals are not known");
   }
@@ -100,12 +210,12 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
   }
   if (result.predictability) {
     line("predictable", predictability_words(result));
-    for (const Answer& answer : scatter_answers(result)) {
-      text += labelled(answer.name, answer.value + ": " + answer.note);
+    for (const LabelledText& scatter : scatter_answers(result)) {
+      text += labelled(scatter.label, scatter.text + ": " + scatter.note);
     }
   }
   for (const std::string& warning : result.warnings) line("warning", warning);
-  return verbose ? text + details(input, result) : text;
+  return verbose ? text + '\n' + notes(result) + details(input, result) : text;
 }
 
 }  // namespace subimpact

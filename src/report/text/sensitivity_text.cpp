@@ -135,9 +135,9 @@ std::string predictability_words(const Result& result) {
                      duration_text(found.horizon), scatter, found.reason);
 }
 
-std::vector<Answer> scatter_answers(const Result& result) {
+std::vector<LabelledText> scatter_answers(const Result& result) {
   const Predictability& found = *result.predictability;
-  std::vector<Answer> answers;
+  std::vector<LabelledText> answers;
   for (const auto& [column, name, measure] : sampled_totals) {
     const auto total = std::ranges::find(found.totals, column, &Predictability::Sampled::name);
     if (total == found.totals.end()) continue;
@@ -182,8 +182,8 @@ std::string scatter_table(const Result& result) {
              scattered(zones[z].end, zone.end_scatter)) +
         fmt::format("  impulse {} N s\n", with_scatter(zones[z].impulse, zone.impulse_scatter));
   }
-  for (const Answer& answer : scatter_answers(result)) {
-    text += fmt::format("{} {}: {}\n", answer.name, answer.value, answer.note);
+  for (const LabelledText& answer : scatter_answers(result)) {
+    text += fmt::format("{} {}: {}\n", answer.label, answer.text, answer.note);
   }
   return text;
 }

@@ -39,9 +39,14 @@ int decimals_for(double value, int digits) {
 }
 
 bool is_below(double value, double error) { return error > std::abs(value); }
+
+double rounded_to(double value, int decimals) {
+  const double power = std::pow(10.0, std::abs(decimals));
+  return decimals >= 0 ? std::round(value * power) / power : std::round(value / power) * power;
+}
 // As they are printed: errors are rounded up.
-bool is_below(const std::string& value, const std::string& error) {
-  return is_below(std::stod(value), std::stod(error));
+bool is_printed_below(double value, const Rounding& rounding) {
+  return is_below(rounded_to(value, rounding.decimals), rounding.rounded * (1.0 - rounding_slack));
 }
 
 constexpr std::size_t least_number_width = 4;
@@ -150,7 +155,7 @@ Cell cell_of(const ColumnOfTable& column, const Result& result, const SubImpact&
   }
   if (error == 0.0 && is_certain) return {exact_text(value, rounding->decimals), {}};
   const std::string text = rounded(value, rounding->decimals);
-  if (is_below(value, error) || is_below(text, rounding->error)) return {"?", {}};
+  if (is_below(value, error) || is_printed_below(value, *rounding)) return {"?", {}};
   const bool is_large = error > (is_certain ? silent_error : loud_error) * std::abs(value);
   const bool is_shown = !quantity.is_instant ? is_large : is_certain || rounding->decimals < least;
   return {text, is_shown ? rounding->error : std::string()};
@@ -200,10 +205,7 @@ std::pair<std::vector<std::string>, std::size_t> column_texts(const std::vector<
 }  // namespace
 
 std::string with_decimals(double value, int decimals) {
-  if (decimals < 0) {
-    const double unit = std::pow(10.0, -decimals);
-    value = std::round(value / unit) * unit;
-  }
+  if (decimals < 0) value = rounded_to(value, decimals);
   std::string text = fmt::format("{:.{}f}", value, std::max(decimals, 0));
   if (text.front() == '-' && text.find_first_of("123456789") == text.npos) text.erase(0, 1);
   return text;
@@ -211,9 +213,12 @@ std::string with_decimals(double value, int decimals) {
 
 std::optional<Rounding> rounding_of(double error, int most_decimals) {
   if (!(error >= 0.0 && error < largest_error)) return std::nullopt;
-  if (error == 0.0) return Rounding{most_decimals, "0"};
+  if (error == 0.0) return Rounding{most_decimals, 0.0, "0"};
+  const auto rounded_up = [](double up, int decimals) {
+    return Rounding{decimals, up, with_decimals(up, decimals)};
+  };
   if (error <= std::pow(10.0, -most_decimals)) {
-    return Rounding{most_decimals, with_decimals(std::pow(10.0, -most_decimals), most_decimals)};
+    return rounded_up(std::pow(10.0, -most_decimals), most_decimals);
   }
   int decimals = -static_cast<int>(std::floor(std::log10(error)));
   // 1.2 has two digits; 0.95 to 1 becomes 1.0 in tenths.
@@ -226,7 +231,7 @@ std::optional<Rounding> rounding_of(double error, int most_decimals) {
   decimals = std::min(decimals, most_decimals);
   units = units_up(error, decimals);
   const double unit = std::pow(10.0, std::abs(decimals));
-  return Rounding{decimals, with_decimals(decimals >= 0 ? units / unit : units * unit, decimals)};
+  return rounded_up(decimals >= 0 ? units / unit : units * unit, decimals);
 }
 
 std::string with_digits(double value, int digits) {
@@ -246,14 +251,15 @@ ReadUnit unit_for(double size, const Measure& measure) {
   const bool takes_large = si == as_force.si || si == as_energy.si;
   const int largest = std::max(takes_large ? largest_prefix : 0, measure.usual);
   if (exponent < smallest_prefix || exponent > largest || (si.empty() && !is_usual)) {
-    return {fmt::format("1e{}{}{}", whole, si.empty() ? "" : " ", si), std::pow(10.0, -whole)};
+    return {fmt::format("1e{}{}{}", whole, si.empty() ? "" : " ", si), std::pow(10.0, -whole),
+            true};
   }
   return {prefixes[(exponent - smallest_prefix) / 3] + std::string(si), std::pow(10.0, -exponent)};
 }
 
 std::string with_unit(const std::string& number, const ReadUnit& unit) {
   if (unit.name.empty()) return number;
-  if (!unit.name.starts_with("1e")) return number + " " + unit.name;
+  if (!unit.is_power) return number + " " + unit.name;
   const bool is_plain = number.find(' ') == number.npos;
   return (is_plain ? number : "(" + number + ")") + unit.name.substr(1);
 }
@@ -307,23 +313,32 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
   return table;
 }
 
-std::string number_in(const ReadUnit& unit, const Total& total, int most_digits) {
+ReadUnit unit_for(const Total& total, const Measure& measure) {
+  const double size = std::abs(total.value), error = total.error.value_or(0.0);
+  return unit_for(is_below(size, error) ? size + error : size, measure);
+}
+
+NumberAndError number_and_error(const ReadUnit& unit, const Total& total, int most_digits) {
   const double value = unit.per_si * total.value, size = std::abs(value);
   const double error = unit.per_si * total.error.value_or(HUGE_VAL);
   const bool is_lost = is_below(size, error);
   const int most = decimals_for(is_lost ? size + error : size, most_digits);
   const auto rounding = rounding_of(error, most);
-  if (!rounding) return with_digits(value, digits_if_uncertain);
-  const std::string text = rounded(value, rounding->decimals);
-  if (is_lost || is_below(text, rounding->error)) {
-    return fmt::format("? (at most {})", rounding_of(size + error, most)->error);
+  if (!rounding) return {with_digits(value, digits_if_uncertain), {}};
+  if (is_lost || is_printed_below(value, *rounding)) {
+    return {"at most " + rounding_of(size + error, most)->error, rounding->error, true};
   }
-  return fmt::format("{} +- {}", text, rounding->error);
+  return {rounded(value, rounding->decimals), rounding->error};
+}
+
+std::string number_in(const ReadUnit& unit, const Total& total, int most_digits) {
+  const auto [number, error, is_lost] = number_and_error(unit, total, most_digits);
+  if (error.empty()) return number;
+  return is_lost ? fmt::format("? ({})", number) : fmt::format("{} +- {}", number, error);
 }
 
 std::string text_of(const Total& total, const Measure& measure) {
-  const double size = std::abs(total.value), error = total.error.value_or(0.0);
-  const ReadUnit unit = unit_for(is_below(size, error) ? size + error : size, measure);
+  const ReadUnit unit = unit_for(total, measure);
   return with_unit(number_in(unit, total, measure.most_digits), unit);
 }
 
@@ -351,23 +366,11 @@ std::string count_text(const Total& count) {
              : fmt::format("{:.0f} +- {:.0f}", count.value, error);
 }
 
-std::optional<double> error_of_total(const Result& result, RunTotal name) {
-  if (!result.error_estimate) return std::nullopt;
-  const auto& totals = result.error_estimate->totals;
-  const auto found = std::ranges::find(totals, name, &NamedTotal::name);
-  return found == totals.end() ? std::nullopt : found->total.error;
-}
-
 std::string total_text(const Result& result, RunTotal name, double value, const Measure& measure) {
   if (!result.error_estimate) return plain_text(value, measure);
   const std::optional<double> error = error_of_total(result, name);
   const bool is_odd = !error && !result.error_estimate->totals.empty();
   return text_of({value, error}, measure) + (is_odd ? " (error not known)" : "");
-}
-
-const ErrorEstimate::UncertainFlight* doubt_after_last(const Result& result) {
-  if (!result.error_estimate) return nullptr;
-  return result.error_estimate->doubt_after(result.sub_impacts.size() - 1);
 }
 
 std::string place_of_doubt(const Result& result, const ErrorOfTimes& found) {

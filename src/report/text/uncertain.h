@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "subimpact/simulate/result.h"
+#include "subimpact/study/answers.h"
 
 namespace subimpact {
 
@@ -13,8 +14,9 @@ namespace subimpact {
 /// that digit is a 1, and is rounded up; the number is rounded to the place of the error's last
 /// digit: 201.4763 with an error of 0.0163 is 201.476 +- 0.017, with 0.0261 it is 201.48 +- 0.03.
 struct Rounding {
-  int decimals = 0;   ///< of the number; -1: tens, -2: hundreds, ...
-  std::string error;  ///< "0.017", "0.03"; "0" for an exact number
+  int decimals = 0;        ///< of the number; -1: tens, -2: hundreds, ...
+  double rounded = 0.0;    ///< the error
+  std::string error = {};  ///< "0.017", "0.03"; "0" for an exact number
 };
 
 /// The rounding that an error allows, with at most `most_decimals`: a smaller error is stated as
@@ -37,12 +39,15 @@ struct Measure {
 };
 inline constexpr Measure as_ratio{""}, as_force{"N"}, as_impulse{"N s"}, as_energy{"J"},
     as_velocity{"m/s"}, as_rotation{"rad"}, as_time{"s", -6, 9}, as_instant{"s", -6, 9, 1.0},
-    as_length{"m", -3}, as_gap{"m", -6};
+    as_length{"m", -3}, as_gap{"m", -6}, as_stress{"Pa", 6, 3};
+/// Forces from a kilonewton on in kilonewtons.
+inline constexpr Measure as_answered_force{"N", 3, 6, 1.0};
 
 /// A unit in which a value is read: "us", "kN", "1e-27 N s"; `per_si`: of them in one SI unit.
 struct ReadUnit {
   std::string name;
   double per_si = 1.0;
+  bool is_power = false;  ///< "1e-27 N s"
 };
 
 /// The unit in which a size (SI) is read: the usual one from Measure::smallest to 1e7 such units;
@@ -81,6 +86,15 @@ struct SubImpactRows {
 /// `plus_minus`: what stands between a time and its error.
 SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus = "+-");
 
+/// A number and its error, each by itself in a given unit: "8796.3" and "0.8"; three digits and no
+/// error where that is not known; "at most 30000" where it exceeds the number.
+struct NumberAndError {
+  std::string number, error;
+  bool is_lost = false;  ///< the error exceeds the number
+};
+NumberAndError number_and_error(const ReadUnit& unit, const Total& total, int most_digits);
+/// The unit in which both are read.
+ReadUnit unit_for(const Total& total, const Measure& measure);
 /// A number with its error, in a given unit: "8796.3 +- 0.8"; three digits where no error is known,
 /// and no number where the error exceeds it: "? (at most 30000)".
 std::string number_in(const ReadUnit& unit, const Total& total, int most_digits);
@@ -96,15 +110,9 @@ int decimals_of_times(const Result& result, const ReadUnit& unit);
 /// exceeds it.
 std::string count_text(const Total& count);
 
-/// The error of a total; none where it is not known.
-std::optional<double> error_of_total(const Result& result, RunTotal name);
-
 /// A total of the run with its error: "8796.3 +- 0.8 N"; without an error estimate all digits of
 /// the measure.
 std::string total_text(const Result& result, RunTotal name, double value, const Measure& measure);
-
-/// The flight after the last sub-impact, if it may hold another one; else null.
-const ErrorEstimate::UncertainFlight* doubt_after_last(const Result& result);
 
 /// Where something is not certain: "sub-impact 3", or the flight before it: "after sub-impact 2",
 /// "after the last sub-impact". `found`: the error estimate or a part, with a first doubt.

@@ -3,12 +3,22 @@
 #include <string>
 
 #include "subimpact/report/text.h"
+#include "subimpact/study/answers.h"
 #include "unwrapped.h"
 
 namespace subimpact {
 
+inline Result answered(const Case& input, Result result) {
+  make_answers(input, result);
+  return result;
+}
+
 inline std::string summary_of(const Case& input, const Result& result, bool verbose = false) {
-  return unwrapped(run_summary(input, result, verbose));
+  return unwrapped(run_summary(input, answered(input, result), verbose));
+}
+
+inline Answer answer_to(const Case& input, const Result& result, AnswerKey key) {
+  return answer_of(answered(input, result).answers, key);
 }
 
 /// The line of a summary with that label.

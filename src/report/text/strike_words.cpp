@@ -1,4 +1,4 @@
-#include "report/text/strike_answer.h"
+#include "report/text/strike_words.h"
 
 #include <fmt/format.h>
 
@@ -22,8 +22,9 @@ std::string striker_words(const Scene& scene, const std::string& contact) {
   const std::string law = contact.empty() ? "" : " (" + contact + ")";
   if (striker.fixed) return "a stop" + law;
   return fmt::format(
-      "{}{} at {:.4g} m/s{}", mass_text(striker.mass), law, scene.bodies().striker_velocity(),
-      striker.drop_height ? fmt::format(" after a fall of {:.4g} m", *striker.drop_height) : "");
+      "{} at {:.4g} m/s{}{}", mass_text(striker.mass), scene.bodies().striker_velocity(),
+      striker.drop_height ? fmt::format(" after a fall of {:.4g} m", *striker.drop_height) : "",
+      law);
 }
 
 }  // namespace
@@ -49,28 +50,23 @@ std::string others_in_scene(const Scene& scene) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-Answer strike_answer(const Case& input, const Result& result) {
+std::string strike_words(const Case& input, const Result& result) {
   const Scene& scene = input.scene;
   const double x = scene.striker.position;
   const std::string where = x == 0.5 ? std::string("the middle")
                             : x == 0.0 || x == 1.0
                                 ? fmt::format("the {} end", name_of(scene.beam.ends[x == 1.0]))
                                 : fmt::format("{:.4g} of the length", x);
-  const std::string reached = duration_text(result.outcome.time),
-                    end = duration_text(input.end_time);
   const std::string others = others_in_scene(scene);
   const std::size_t n = result.strikes.size();
-  return {"strike",
-          fmt::format(
-              "{}{}, {}{}", n > 1 ? fmt::format("the last of {}: ", n) : "",
-              striker_words(scene, contact_words(input)),
-              scene.beam.fixed
-                  ? std::string("on a plane that does not move")
-                  : fmt::format("at {} of a {}-{} beam of {}", where, name_of(scene.beam.ends[0]),
-                                name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
-              others.empty() ? "" : "; " + others),
-          fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
-                      result.work.all_seconds)};
+  return fmt::format(
+      "{}{}, {}{}", n > 1 ? fmt::format("the last of {}: ", n) : "",
+      striker_words(scene, contact_words(input)),
+      scene.beam.fixed
+          ? std::string("on a plane that does not move")
+          : fmt::format("at {} of a {}-{} beam of {}", where, name_of(scene.beam.ends[0]),
+                        name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
+      others.empty() ? "" : "; " + others);
 }
 
 }  // namespace subimpact

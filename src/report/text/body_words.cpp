@@ -1,0 +1,41 @@
+#include "report/text/body_words.h"
+
+#include <algorithm>
+
+namespace subimpact {
+namespace {
+
+struct Words {
+  BodyPart part;
+  const char *label, *remedy;
+};
+constexpr Words words_of_parts[] = {
+    {BodyPart::shear, "shear", "beam.theory = \"timoshenko\" models it"},
+    {BodyPart::shear_coefficient, "shear coefficient",
+     "give beam.shear_coefficient where it is known better than to 2 %"},
+    {BodyPart::poisson, "Poisson's ratio", "give beam.poisson or beam.material"},
+    {BodyPart::bending, "bending", "model a beam that bends"},
+    {BodyPart::contact_law, "contact law",
+     "measure force over indentation and give it: contact.law = \"curve\""},
+    {BodyPart::nose, "nose", "give contact.striker_modulus and contact.striker_poisson"},
+    {BodyPart::gravity, "gravity", "give scene.gravity"},
+    {BodyPart::width, "width of the hinge",
+     "no theory of beams says how far it is held sideways: compare one measured set"},
+    {BodyPart::finite_rotations, "finite rotations",
+     "the model is for small ones: strike more softly, or compare with a solid"},
+    {BodyPart::stretching, "stretching", "none if an end can move along the beam"},
+    {BodyPart::hinge_length, "length of the hinge", "no theory of beams knows it"},
+    {BodyPart::thin_openings, "thin openings",
+     "no theory of beams knows openings so thin: count them as one contact (--opening 10um)"}};
+
+const Words& words_of(BodyPart part) {
+  return *std::ranges::find(words_of_parts, part, &Words::part);
+}
+
+}  // namespace
+
+std::string label_of(BodyPart part) { return words_of(part).label; }
+
+std::string remedy_of(BodyPart part) { return words_of(part).remedy; }
+
+}  // namespace subimpact
