@@ -108,8 +108,12 @@ void check_contact_damping(const Problem& problem, const Options& options,
 
 void check_beam_damping(const BeamDamping& damping, const Options& options, bool can_yield);
 
-/// Whether an elastic beam on this mesh is integrated in its natural modes, which a damping ratio
-/// needs. Explicit methods see the same motion in both, but a step in modes needs no mass solve.
+/// Refuses what integrates natural modes where a beam stretches.
+void check_tension(const Beam& beam, const Options& options);
+
+/// Whether an elastic beam without tension on this mesh is integrated in its natural modes, which a
+/// damping ratio needs. Explicit methods see the same motion in both, but a step in modes needs no
+/// mass solve.
 bool in_modes(const Options& options, const BeamMesh& mesh, const BeamDamping& damping);
 
 /// Whether resolve() has left a beam in the unknowns of its mesh that is to run in modes.

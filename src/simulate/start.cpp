@@ -97,6 +97,17 @@ void check_approach(const Problem& problem) {
           : "");
 }
 
+void check_axial(const Beam& beam) {
+  if (!beam.stretches()) return;
+  for (const int end : {0, 1}) {
+    if (beam.ends[end] != EndSupport::free) continue;
+    refuse("beam.axial",
+           "is \"held\", but the end at x = {} is free; allowed where both beam.ends are pinned or "
+           "clamped; leave it out, or support that end",
+           end == 0 ? "0" : "length");
+  }
+}
+
 void check_elastic(const StruckBeam& beam, std::span<const double> q) {
   const SectionField& sections = beam.sections();
   if (!sections.can_yield()) return;
@@ -106,6 +117,12 @@ void check_elastic(const StruckBeam& beam, std::span<const double> q) {
   for (std::size_t i = 0; i < kappa.size(); ++i) {
     const double limit = kappa[i] > 0.0 ? sections.window_high()[i] : -sections.window_low()[i];
     largest = std::max(largest, std::abs(kappa[i]) / limit);
+  }
+  if (const Tension* tension = beam.tension(); tension && tension->at(q) >= tension->limit()) {
+    refuse(
+        "beam.start",
+        "is \"equilibrium\", but under its loads the beam, held along it, would yield in tension; "
+        "allowed: loads that leave it elastic; reduce them, or start straight");
   }
   if (largest < 1.0) return;
   refuse("beam.start",
@@ -144,6 +161,7 @@ void check_same(const char* key, const std::string& here, const std::string& the
 }  // namespace
 
 void check_start(const Problem& problem) {
+  check_axial(problem.beam);
   check_motion(problem.beam);
   check_equilibrium(problem);
   check_approach(problem);

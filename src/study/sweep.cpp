@@ -54,7 +54,9 @@ Case with_method(const Case& input, const std::string& name) {
   return chosen;
 }
 
-Method method_for_damping(const Case& input, Method method) {
+Method possible_method(const Case& input, Method method) {
+  const bool takes_tension = descriptor_of(method).modes != MethodDescriptor::Modes::always;
+  if (input.scene.beam.stretches() && !takes_tension) method = Method::nystrom;
   using Damping = MethodDescriptor::Damping;
   const bool contact = input.scene.contact_damping() > 0.0;
   const bool beam = !input.scene.beam.damping.is_none();

@@ -16,6 +16,7 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       striker_velocity_(parts.striker_velocity),
       outer_stiffness_(parts.outer_stiffness),
       loads_(std::move(parts.loads)),
+      tension_(std::move(parts.tension)),
       damping_(parts.damping),
       depends_on_velocity_(parts.contact_damping > 0.0 || !parts.damping.is_none()),
       highest_frequency_(mesh_->highest_frequency(sections_.stiffness())),
@@ -89,6 +90,7 @@ void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces
     sections_.moments(curvatures_, moments_, &outside_);
   }
   mesh_->internal_forces(unknowns, moments_, forces);
+  if (tension_) tension_->add_to(forces, unknowns);
 }
 
 void StruckBeam::acceleration(std::span<const double> positions, std::span<double> result) {
@@ -195,13 +197,16 @@ void StruckBeam::stiffness_entries(std::span<const double> y, Part part, std::sp
                         : sections_.tangent(i, curvatures_[i]);
     }
   }
+  // Of the tension only the part that is banded; what its change adds is of rank one.
+  BeamJacobian::Axial axial{};
+  if (tension_ && part != Part::rest) axial = {tension_->at(unknowns), &tension_->form()};
   double slope = 0.0;
   if (part != Part::stiff) {
     const double lambda = y[n_] - mesh_->struck_point()(unknowns);
     slope =
         contact_.is_damped() ? contact_.slope(lambda, indentation_rate(y)) : contact_.slope(lambda);
   }
-  jacobian().stiffness_entries(moments_, slope, values);
+  jacobian().stiffness_entries(moments_, slope, values, axial);
 }
 
 void StruckBeam::damping_entries(std::span<const double> y, Part part, std::span<double> values) {
@@ -248,6 +253,7 @@ EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
 
 bool StruckBeam::commit(const State& y) {
   if (contact_.loads()) contact_.commit(indentation(y));
+  if (tension_) tension_->commit(beam_positions(y));
   if (!sections_.can_yield()) return false;
   if (section_evaluation_ == Evaluation::smooth) {
     read_motion(y, committed_);
@@ -260,6 +266,7 @@ bool StruckBeam::commit(const State& y) {
 bool StruckBeam::commit_evaluated(const State& y) {
   if (section_evaluation_ == Evaluation::smooth) return commit(y);
   if (contact_.loads()) contact_.commit(indentation(y));
+  if (tension_) tension_->commit(beam_positions(y));
   return count_flows(sections_.commit(outside_));
 }
 

@@ -16,6 +16,7 @@
 #include "system/beam_jacobian.h"
 #include "system/contact/contact_state.h"
 #include "system/loads.h"
+#include "system/tension.h"
 
 namespace subimpact {
 
@@ -30,7 +31,8 @@ struct StruckBeamParts {
   double contact_damping = 0.0;  ///< chi, s/m
   BeamDamping damping = {};      ///< its ratio for natural modes only
   Loads loads = {};
-  double velocity_scale = 0.0;  ///< m/s, of the strike; 0: striker_velocity
+  double velocity_scale = 0.0;          ///< m/s, of the strike; 0: striker_velocity
+  std::optional<Tension> tension = {};  ///< of a beam whose ends are held along it; not in modes
 };
 
 /// Quantities integrated over time since the run began: energy (J) that velocity-dependent forces
@@ -56,14 +58,15 @@ struct SectionMotion {
 ///
 /// State y = [w_1..w_n, w_m, v_1..v_n, v_m] (m, m/s): the mesh's unknowns, then the striker.
 ///
-///     Mass w'' = -B^T W M(kappa, history) - K_s w + S F + f(t),   m w_m'' = -F + m g,
+///     Mass w'' = -B^T W M(kappa, history) - K_s w - N G w + S F + f(t),   m w_m'' = -F + m g,
 ///     F = F(lambda, history),   kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m; sign convention of kappa), K_s the stiffness of shear and springs, if any,
-/// and the loads f (Loads). In place of a striker of infinite mass there is a stop: w_m'' = 0. With
-/// damping the forces depend on velocities too (docs/theory.md, "Beam"). Other classes treat
-/// changes of branch within a step: ContactState and find_crossing for the contact,
-/// SectionCorrector for the sections. Accounts computes energies and momenta.
+/// with M (N m; sign convention of kappa), K_s the stiffness of shear and springs, if any, the
+/// tension N of a beam that is held along it (Tension), and the loads f (Loads). In place of a
+/// striker of infinite mass there is a stop: w_m'' = 0. With damping the forces depend on
+/// velocities too (docs/theory.md, "Beam"). Other classes treat changes of branch within a step:
+/// ContactState and find_crossing for the contact, SectionCorrector for the sections. Accounts
+/// computes energies and momenta.
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
@@ -104,6 +107,8 @@ class StruckBeam final : public MechanicalSystem {
   }
   /// At the corner t of a load, in the state y, or before the start: goes on to the next piece.
   void begin_loads(const State& y, double t);
+  /// Null where ends may approach each other.
+  const Tension* tension() const { return tension_ ? &*tension_ : nullptr; }
   double outer_stiffness() const { return outer_stiffness_; }  ///< E h/2, N/m
   /// Highest frequency (rad/s) of the beam without contact.
   double highest_frequency() const { return highest_frequency_; }
@@ -116,8 +121,8 @@ class StruckBeam final : public MechanicalSystem {
   /// resume() or begin_strike(). Accounts of energies and momenta begin with it.
   State initial_state() const;
   void set_start(State start);
-  /// K^-1 f of the loads f at the start of their piece, with the stiffness K of an elastic beam:
-  /// its displacements at rest under them. Nothing if K is not positive definite.
+  /// (K + N G)^-1 f of the loads f at the start of their piece, with the stiffness K of an elastic
+  /// beam: its displacements at rest under them. Nothing if K is not positive definite.
   std::optional<std::vector<double>> equilibrium() const;
   /// Histories and the accepted state y that they hold at, in the unknowns of the mesh, in natural
   /// modes too.
@@ -185,7 +190,7 @@ class StruckBeam final : public MechanicalSystem {
     n_flows_ += static_cast<long>(n);
     return n > 0;
   }
-  // forces = -B^T W M - K_s w.
+  // forces = -B^T W M - K_s w - N G w.
   void bend(std::span<const double> unknowns, std::span<double> forces);
   // Adds the forces of the beam's damping, all or those of beta.
   void add_stiffness_damping(std::span<const double> velocities, std::span<double> forces);
@@ -195,6 +200,8 @@ class StruckBeam final : public MechanicalSystem {
                std::span<double> result);
   void use_modes();
   void come_to_rest(std::span<double> w, double first_frequency);
+  // With a given tension.
+  std::optional<std::vector<double>> equilibrium(double tension) const;
   BeamJacobian& jacobian() const;
 
   std::shared_ptr<const BeamMesh> mesh_;
@@ -206,6 +213,7 @@ class StruckBeam final : public MechanicalSystem {
   double striker_velocity_;
   double outer_stiffness_;
   Loads loads_;
+  std::optional<Tension> tension_;
   double time_ = 0.0;              // of the next evaluation
   double potential_before_ = 0.0;  // of the loads at the start, and what corners have changed
   BeamDamping damping_;

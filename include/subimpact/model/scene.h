@@ -24,6 +24,12 @@ enum class EndSupport {
   clamped  ///< neither displacement nor rotation
 };
 
+/// Whether the ends of a beam may approach each other along it.
+enum class AxialEnds {
+  free,  ///< the beam keeps its length: no tension
+  held   ///< they keep their distance: the beam stretches as it bends (Tension)
+};
+
 /// Damping of the beam. The force on the beam is -(mass Mass + stiffness K) v with the elastic
 /// stiffness K (Rayleigh's damping): mode k, of frequency omega, has the damping ratio
 /// mass/(2 omega) + stiffness omega/2. `ratio` adds the same damping ratio to all modes that bend.
@@ -95,6 +101,7 @@ struct Beam {
   /// k; by default Cowper's for the shape of the section.
   std::optional<double> shear_coefficient = {};
   std::array<EndSupport, 2> ends{EndSupport::free, EndSupport::free};  ///< at x = 0 and x = l
+  AxialEnds axial = AxialEnds::free;  ///< held: needs supports at both ends
   BeamDamping damping = {};
   CrossSection section = {};
   /// E_t/E of linear kinematic hardening: fibres that yield keep this share of their stiffness.
@@ -143,6 +150,7 @@ struct Beam {
   /// Y I/(h/2), N m: the moment at which the outermost fibre yields.
   double yield_moment() const;
   double radius_of_gyration() const { return std::sqrt(second_moment() / area()); }  ///< r, m
+  bool stretches() const { return axial == AxialEnds::held; }
   /// Whether both ends are free.
   bool is_free() const { return ends[0] == EndSupport::free && ends[1] == EndSupport::free; }
   /// Whether only striker and loads act on the beam.

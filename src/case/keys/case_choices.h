@@ -38,6 +38,13 @@ inline constexpr Named<EndSupport> choices<EndSupport>[] = {
 };
 
 template <>
+inline constexpr Named<AxialEnds> choices<AxialEnds>[] = {
+    {AxialEnds::free, "free", "they may approach each other: no tension"},
+    {AxialEnds::held, "held",
+     "they may not: the beam stretches as it bends, up to its yield stress"},
+};
+
+template <>
 inline constexpr Named<SectionShape> choices<SectionShape>[] = {
     {SectionShape::rectangle, "rectangle", "height, width; or beam.thickness and beam.width"},
     {SectionShape::circle, "circle", "diameter"},

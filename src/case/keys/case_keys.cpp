@@ -303,7 +303,6 @@ std::vector<CaseKey> make_case_keys() {
   const Range poisson = between("from 0 to 0.5", 0.0, 0.5), fraction = between("from 0 to 1", 0.0, 1.0);
   const char* const none = "none; needed by shapes that name it";
   const auto of_plane = [](const Case& c) { return c.scene.beam.fixed; };
-  const Range tolerance = between("from 1e-14 to 0.1", 1e-14, 0.1);
   return {
     row("title", "", any_value, "name of the case", "\"\"", AT(title)),
 
@@ -319,6 +318,7 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.poisson", "", poisson, "Poisson's ratio, for theory = \"timoshenko\" and for contact.law = \"sphere\", \"line\", or \"hertz\" without stiffness", "0.3 where theory or contact law need it", AT(scene.beam.poisson)),
     row("beam.shear_coefficient", "", positive_share, "shear coefficient k of theory = \"timoshenko\": k G A is the shear stiffness", "Cowper's for the section; of a rectangle 10 (1 + nu)/(12 + 11 nu)", AT(scene.beam.shear_coefficient)),
     row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
+    row("beam.axial", "", any_value, "the ends along the beam", as_in_case, AT(scene.beam.axial)),
     row("beam.load", "N/m", finite, "uniform load along the strike, constant from t = 0", as_in_case, AT(scene.beam.load)),
     row("beam.forces", "N", finite, "forces at points along the strike, each constant or linear between the points (t, F) of a table", "[]", AT(scene.beam.forces)),
     row("beam.springs", "N/m", positive, "linear springs between points and the ground", "[]", AT(scene.beam.springs)),
@@ -385,7 +385,7 @@ std::vector<CaseKey> make_case_keys() {
     row("time.stop", "", any_value, "when the run stops", as_in_case, AT(stop)),
 
     row("solver.method", "", any_value, "time integration method", as_in_case, AT(solver.method)),
-    row("solver.rtol", "", tolerance, "relative tolerance of adaptive methods", as_in_case, AT(solver.rtol)),
+    row("solver.rtol", "", between("from 1e-14 to 0.1", 1e-14, 0.1), "relative tolerance of adaptive methods", as_in_case, AT(solver.rtol)),
     row("solver.step", "s", positive, "fixed step", default_step(), AT(solver.step)),
     row("solver.max_step", "s", positive, "largest step of adaptive methods", "no limit", AT(solver.max_step)),
     with_choices(row("solver.table", "", any_value, "coefficients of a Runge-Kutta method", "the method's first: see `subimpact methods`", AT(solver.table)), table_choices()),

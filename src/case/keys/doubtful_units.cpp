@@ -242,7 +242,8 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
   const Beam& beam = input.scene.beam;
   const std::optional<double>& nose = input.scene.striker.nose_radius;
   const bool is_rigid = input.model.mesh == MeshKind::rigid;
-  const bool is_held = beam.ends[0] != EndSupport::free && beam.ends[1] != EndSupport::free;
+  const bool is_held =
+      !beam.stretches() && beam.ends[0] != EndSupport::free && beam.ends[1] != EndSupport::free;
   const double indentation = result.max_indentation, set = result.largest_displacement;
   std::vector<std::string> sentences;
   const auto add = [&]<class... Values>(bool beyond, fmt::format_string<const Values&...> text,
@@ -264,8 +265,8 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
   add(!is_rigid && is_held && set / beam.height() > largest_deflection,
       "the struck point moves by {:.3g} mm, {:.2g} times the thickness, on a beam held at both "
       "ends: "
-      "if its supports cannot approach each other, stretching, which the model leaves out, "
-      "stiffens it",
+      "if its supports cannot approach each other, it stretches, which stiffens it: set "
+      "beam.axial = \"held\"",
       mm * set, set / beam.height());
   add_pulls(beam, result, sentences);
   if (!nose) return sentences;

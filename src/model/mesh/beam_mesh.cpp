@@ -26,6 +26,15 @@ void SparseFunctional::add(double factor, const SparseFunctional& other) {
   std::erase_if(terms, [](const Term& term) { return term.coefficient == 0.0; });
 }
 
+void SparseFunctional::add_square(double factor, BandedMatrix& to) const {
+  for (const Term& a : terms) {
+    for (const Term& b : terms) {
+      if (b.unknown < a.unknown) continue;
+      to.at(a.unknown, b.unknown) += factor * a.coefficient * b.coefficient;
+    }
+  }
+}
+
 std::size_t BeamMesh::nearest_section(double x) const {
   const auto nearest =
       std::ranges::min_element(positions_, {}, [x](double at) { return std::abs(at - x); });
@@ -64,6 +73,13 @@ SparseFunctional BeamMesh::curvature_functional(std::size_t section) const {
     functional.terms.push_back({row.first + i, row.coefficients[i]});
   }
   return functional;
+}
+
+BandedMatrix BeamMesh::slope_form() const {
+  const std::vector<Slope> all = slopes();
+  BandedMatrix form(all.empty() ? 0 : n_unknowns(), all.empty() ? 0 : stiffness_bandwidth());
+  for (const Slope& slope : all) slope.value.add_square(slope.weight, form);
+  return form;
 }
 
 void BeamMesh::moment_weights(std::span<const double> unknowns, std::span<double> weights) const {

@@ -192,6 +192,19 @@ std::optional<SparseFunctional> CellMesh::rotation_at(double x) const {
   return slope;
 }
 
+// At the faces; each end counts half.
+std::vector<BeamMesh::Slope> CellMesh::slopes() const {
+  const auto n_faces = static_cast<long>(symmetric() ? n_cells_ / 2 + 1 : n_cells_ + 1);
+  std::vector<Slope> all;
+  for (long face = 0; face < n_faces; ++face) {
+    const bool is_end = face == 0 || face == static_cast<long>(n_cells_);
+    all.push_back({copies() * spacing_ * (is_end ? 0.5 : 1.0), {}});
+    all.back().value.add(1.0 / spacing_, continued_cell(face));
+    all.back().value.add(-1.0 / spacing_, continued_cell(face - 1));
+  }
+  return all;
+}
+
 void CellMesh::place_sections() {
   const std::size_t first = ends_[0] == EndSupport::free ? 1 : 0;
   const std::size_t end = symmetric()                    ? n_cells_ / 2 + 1

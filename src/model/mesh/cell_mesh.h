@@ -34,6 +34,7 @@ class CellMesh final : public BeamMesh {
   std::optional<SparseFunctional> displacement_at(double x) const override;
   /// Linear between the faces of cells, where it is the difference of the neighbouring centres.
   std::optional<SparseFunctional> rotation_at(double x) const override;
+  std::vector<Slope> slopes() const override;
   /// The infinite grid's, which the constraints of supported ends on mirrored grids cannot exceed.
   double highest_frequency(double bending_stiffness) const override;
   /// In closed form if both ends are free and all links alike (see free_cell_modes).

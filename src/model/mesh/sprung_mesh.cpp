@@ -59,12 +59,8 @@ void SprungMesh::add_spring(double x, double stiffness, double length) {
   for (const auto& a : at.terms) {
     ground_force_[a.unknown] += stiffness * a.coefficient;
     ground_moment_[a.unknown] += stiffness * x * a.coefficient;
-    for (const auto& b : at.terms) {
-      if (b.unknown >= a.unknown) {
-        springs_.at(a.unknown, b.unknown) += stiffness * a.coefficient * b.coefficient;
-      }
-    }
   }
+  at.add_square(stiffness, springs_);
 }
 
 void SprungMesh::add_shear_forces(std::span<const double> unknowns,

@@ -46,6 +46,7 @@ class SprungMesh final : public BeamMesh {
   std::optional<SparseFunctional> rotation_at(double x) const override {
     return other_->rotation_at(x);
   }
+  std::vector<Slope> slopes() const override { return other_->slopes(); }
   /// An upper bound: the sum of the squares of both.
   double highest_frequency(double bending_stiffness) const override;
   void moment_weights(std::span<const double> unknowns, std::span<double> weights) const override {

@@ -181,8 +181,10 @@ std::string scene_section(const Case& input, const ResolvedSettings& used) {
   if (scene.beam.fixed) {
     text += line("beam", "a plane that does not move");
   } else {
-    text += line("beam", fmt::format("{:.6g} kg; ends {}; theory {}", scene.beam.mass(),
-                                     key_text(input, "beam.ends"), key_text(input, "beam.theory")));
+    const char* axial = scene.beam.stretches() ? ", held along the beam: a tension" : "";
+    text += line("beam",
+                 fmt::format("{:.6g} kg; ends {}{}; theory {}", scene.beam.mass(),
+                             key_text(input, "beam.ends"), axial, key_text(input, "beam.theory")));
     text += line("cross-section", cross_section_text(scene.beam));
   }
   text +=

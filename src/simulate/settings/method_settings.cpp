@@ -43,7 +43,13 @@ std::string methods_that(bool (*holds)(const MethodDescriptor&)) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+bool always_in_modes(const MethodDescriptor& method) {
+  return method.modes == MethodDescriptor::Modes::always;
+}
 bool is_of_sundials(const MethodDescriptor& method) { return method.sundials; }
+bool runs_in_modes(const Options& options, const StruckBeam& beam) {
+  return beam.tension() == nullptr && in_modes(options, beam.mesh(), beam.damping());
+}
 bool takes_any_damping(const MethodDescriptor& method) {
   return method.damping == MethodDescriptor::Damping::any;
 }
@@ -229,6 +235,23 @@ std::optional<double> step_used(const Options& options, const ResolvedSettings& 
   return step;
 }
 
+void check_tension(const Beam& beam, const Options& options) {
+  if (!beam.stretches()) return;
+  const char* const because =
+      "beam.axial = \"held\" gives the beam a tension that grows with its deflection, and so no "
+      "natural modes";
+  const MethodDescriptor& method = descriptor_of(options.solver.method);
+  if (always_in_modes(method)) {
+    refuse("solver.method", "is \"{}\", but {}; allowed solver.method: {}", method.name, because,
+           methods_that([](const MethodDescriptor& m) { return !always_in_modes(m); }));
+  }
+  if (beam.damping.ratio > 0.0) {
+    refuse("beam.damping.ratio",
+           "is {:g}, but {}; give beam.damping.mass and beam.damping.stiffness in its place",
+           beam.damping.ratio, because);
+  }
+}
+
 bool in_modes(const Options& options, const BeamMesh& mesh, const BeamDamping& damping) {
   const MethodDescriptor::Modes modes = descriptor_of(options.solver.method).modes;
   if (modes != MethodDescriptor::Modes::where_cheaper) {
@@ -240,11 +263,11 @@ bool in_modes(const Options& options, const BeamMesh& mesh, const BeamDamping& d
 
 bool modes_are_left_out(const Options& options, const StruckBeam& beam) {
   return beam.mesh().modal_stiffness().empty() && !beam.sections().can_yield() &&
-         in_modes(options, beam.mesh(), beam.damping());
+         runs_in_modes(options, beam);
 }
 
 double decomposition_of(const Options& options, const StruckBeam& beam) {
-  if (!in_modes(options, beam.mesh(), beam.damping())) return 0.0;
+  if (!runs_in_modes(options, beam)) return 0.0;
   const BeamMesh& mesh = beam.mesh();
   const auto n = static_cast<double>(mesh.n_unknowns());
   return mesh.has_closed_modes() ? mesh.closed_modes_work() : work_per_dense_mode * n * n * n;
@@ -254,10 +277,10 @@ double memory_of(const Options& options, const StruckBeam& beam) {
   const BeamMesh& mesh = beam.mesh();
   const auto n = static_cast<double>(mesh.n_unknowns());
   const bool yields = beam.sections().can_yield();
-  const bool flies = yields && in_modes(options, mesh, beam.damping());
+  const bool flies = yields && runs_in_modes(options, beam);
   const double of_modes = mesh.has_closed_modes() ? matrices_of_modes : matrices_of_dense_modes;
-  const double matrices = (in_modes(options, beam.mesh(), beam.damping()) ? of_modes : 0.0) +
-                          (flies ? matrices_of_flight : 0.0);
+  const double matrices =
+      (runs_in_modes(options, beam) ? of_modes : 0.0) + (flies ? matrices_of_flight : 0.0);
   return memory_of_program + memory_per_unknown * n + sizeof(double) * matrices * n * n;
 }
 

@@ -149,6 +149,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.max_order = max_order_used(options);
   check_method(options, used, beam.sections().can_yield());
   check_contact_damping(problem, options, used);
+  check_tension(problem.beam, options);
   check_beam_damping(problem.beam.damping, options, beam.sections().can_yield());
   used.step = step_used(options, used);
   if (!used.step) {
@@ -183,6 +184,16 @@ std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const Optio
   }
 }
 
+Tension make_tension(const BeamMesh& mesh, const Beam& beam, bool may_yield) {
+  BandedMatrix form = mesh.slope_form();
+  if (form.size() == 0) {
+    refuse("beam.axial",
+           "is \"held\", but this mesh gives no slopes along the beam; leave it out, use another "
+           "model.mesh, or give the mesh slopes()");
+  }
+  return {std::move(form), beam, may_yield ? beam.yield_stress * beam.area() : HUGE_VAL};
+}
+
 // A typical velocity (m/s) of a striker that its weight alone presses in, to the depth d at which
 // the contact has taken up its fall: m g d = W(d).
 double velocity_under_weight(const Problem& problem) {
@@ -201,17 +212,20 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
                             Coordinates coordinates) {
   std::shared_ptr<const BeamMesh> mesh = problem.mesh;
   SectionField sections = make_sections(problem);
-  if (coordinates == Coordinates::chosen && !sections.can_yield() &&
+  if (coordinates == Coordinates::chosen && !sections.can_yield() && !problem.beam.stretches() &&
       in_modes(options, *mesh, problem.beam.damping)) {
     mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
   }
   std::unique_ptr<MassSolver> solver = make_mass_solver(problem, options, *mesh);
   Loads loads(*mesh, problem.beam, problem.gravity);
+  std::optional<Tension> tension;
+  if (problem.beam.stretches()) tension = make_tension(*mesh, problem.beam, sections.can_yield());
   StruckBeam beam(StruckBeamParts{
       std::move(mesh), std::move(sections), problem.contact_law, problem.striker.inertia(),
       problem.bodies().striker_velocity(), outer_stiffness(problem), std::move(solver),
       problem.contact_damping, problem.beam.damping, std::move(loads),
-      std::max(problem.bodies().velocity_scale(), velocity_under_weight(problem))});
+      std::max(problem.bodies().velocity_scale(), velocity_under_weight(problem)),
+      std::move(tension)});
   set_start(problem, beam);
   return beam;
 }

@@ -36,7 +36,7 @@ Case coarse_case(const Case& input, int cells, double end) {
     coarse.model.elements = std::max(cells / 4, 4);
     if (coarse.model.mesh == MeshKind::cells) coarse.solver.method = Method::central_difference;
   }
-  coarse.solver.method = method_for_damping(coarse, coarse.solver.method);
+  coarse.solver.method = possible_method(coarse, coarse.solver.method);
   return coarse;
 }
 

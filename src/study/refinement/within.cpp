@@ -361,7 +361,7 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
   const bool own_mesh = input.parts.mesh != nullptr;
   const bool bends = own_mesh || descriptor_of(model.mesh).bends;
   if (!bends) {
-    if (open.method) solver.method = method_for_damping(input, Method::nystrom);
+    if (open.method) solver.method = possible_method(input, Method::nystrom);
     if (open.tolerance) solver.rtol = tolerance_of_rigid_bodies;
     chosen.reason = "a rigid body has no mesh to refine";
     return chosen;
@@ -385,7 +385,7 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
     solver.method = cells && central_differences_suit(chosen.input) ? Method::central_difference
                                                                     : Method::nystrom;
   }
-  if (open.method) solver.method = method_for_damping(input, solver.method);
+  if (open.method) solver.method = possible_method(input, solver.method);
   const bool fixed = !open.method && !open.mesh;
   chosen.reason = fixed    ? "the case fixes mesh and method"
                   : yields ? kinks_bound_the_error

@@ -315,7 +315,7 @@ Case sensitivity_case(const Case& input) {
   Case base = input;
   if (events_of(input) == EventHandling::interpolated) {
     base.solver = {};
-    base.solver.method = method_for_damping(input, Method::nystrom);
+    base.solver.method = possible_method(input, Method::nystrom);
   }
   base.solver.rtol = std::min(input.solver.rtol, tightest);
   base.accuracy.event_times.reset();

@@ -44,8 +44,10 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, doubl
     compliance_of_rest_ -= share * share / (omega * omega);
   }
   compliance_of_rest_ = std::max(compliance_of_rest_, 0.0) + rounding * compliance_;
+  // A tension has no natural modes; its energy is in the bound.
   if (!sections.can_yield()) {
-    if (frequencies.size() > 1) horizon_.emplace(std::move(frequencies), std::move(shares));
+    const bool has_modes = beam.tension() == nullptr && frequencies.size() > 1;
+    if (has_modes) horizon_.emplace(std::move(frequencies), std::move(shares));
     return;
   }
   take_plastic_compliance(beam, motion->response, material);
@@ -87,7 +89,7 @@ bool NoMoreContact::allow_loads(const StruckBeam& beam) {
   }
   if (apart < -rounding * std::abs(beam.striker_load())) return false;
   if (std::sqrt(dot(rest.data(), rest.data(), n_)) > rounding * size) {
-    if (!is_held || beam.sections().can_yield()) return false;
+    if (!is_held || beam.sections().can_yield() || beam.tension() != nullptr) return false;
     const auto at_rest = beam.equilibrium();
     if (!at_rest) return false;
     about_ = *at_rest;

@@ -46,9 +46,11 @@ namespace subimpact {
 /// away. Nothing is proven of beams that other loads bend and that may yield, or that nothing
 /// holds.
 ///
-/// A beam that is elastic and undamped is followed beyond that: its lowest modes move freely
-/// (EventFreeHorizon), and the rest of d stays below sqrt(2 C' E'), with the compliance and the
-/// energy of the other modes. It is followed until the gap exceeds all that d can be.
+/// The energy of a tension (Tension) is part of E, so that the bound holds with it, but for loads.
+///
+/// A beam that is elastic and undamped, without tension, is followed beyond that: its lowest modes
+/// move freely (EventFreeHorizon), and the rest of d stays below sqrt(2 C' E'), with the compliance
+/// and the energy of the other modes. It is followed until the gap exceeds all that d can be.
 class NoMoreContact {
  public:
   /// `beam` must outlive this. `first_period`: of its bending, roughly, s.

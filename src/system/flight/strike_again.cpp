@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "numerics/bracketed_root.h"
 #include "numerics/lanes.h"
 #include "system/readings/accounts.h"
 #include "system/struck_beam.h"
@@ -45,6 +46,7 @@ void StruckBeam::exchange(Snapshot& snapshot, State& y) {
            potential_before_, loads_);
   snapshot.begin("sections");
   snapshot(sections_);
+  if (tension_) snapshot(*tension_);
   if (snapshot.reads()) read_motion(y, committed_);
 }
 
@@ -71,22 +73,36 @@ void StruckBeam::begin_strike(State y, bool at_rest, double first_frequency) {
 }
 
 std::optional<std::vector<double>> StruckBeam::equilibrium() const {
-  std::vector<double> q(n_, 0.0), rest(n_), kappa(mesh_->n_sections());
   if (!modal_stiffness_.empty()) {
+    std::vector<double> q(n_, 0.0);
     if (std::ranges::count(modal_stiffness_, 0.0) > 0) return std::nullopt;
     loads_.add_to(q, loads_.start());
     for (std::size_t k = 0; k < n_; ++k) q[k] /= modal_stiffness_[k];
     return q;
   }
+  if (!tension_) return equilibrium(0.0);
+  const auto straight = equilibrium(0.0);
+  if (!straight) return std::nullopt;
+  // The larger the tension, the less of it the deflection makes.
+  const auto excess = [&](double tension) { return tension_->at(*equilibrium(tension)) - tension; };
+  const double most = tension_->at(*straight);
+  return equilibrium(most > 0.0 ? root_in(excess, 0.0, most) : 0.0);
+}
+
+std::optional<std::vector<double>> StruckBeam::equilibrium(double tension) const {
+  std::vector<double> q(n_, 0.0), rest(n_), kappa(mesh_->n_sections());
   const double stiffness = sections_.stiffness();
-  BandedMatrix matrix(n_, mesh_->stiffness_bandwidth());
+  BandedMatrix matrix(n_, mesh_->stiffness_bandwidth()), pull = matrix;
+  if (tension > 0.0) pull.add(tension, tension_->form());
   mesh_->add_stiffness(std::vector<double>(mesh_->n_sections(), stiffness), matrix);
+  matrix.add(1.0, pull);
   const auto factor = matrix.cholesky_factor();
   if (!factor) return std::nullopt;
   for (int i = 0; i <= n_refinements; ++i) {
     mesh_->curvatures(q, kappa);
     for (double& k : kappa) k *= stiffness;
     mesh_->internal_forces(q, kappa, rest);
+    pull.subtract_product(q, rest);
     loads_.add_to(rest, loads_.start());
     factor->solve_as_factor(rest);
     for (std::size_t k = 0; k < n_; ++k) q[k] += rest[k];
@@ -99,6 +115,10 @@ std::optional<std::vector<double>> StruckBeam::equilibrium() const {
 // mass, which holds a free beam where its mean displacement and rotation are zero.
 void StruckBeam::come_to_rest(std::span<double> w, double first_frequency) {
   if (!sections_.can_yield()) return;
+  if (tension_) {
+    throw std::domain_error(
+        "beam.axial = \"held\": the shape in which a beam with a tension rests is not computed");
+  }
   const Evaluation as_set = section_evaluation_;
   section_evaluation_ = Evaluation::smooth;
   sections_.stop_flow();

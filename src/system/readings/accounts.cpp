@@ -21,6 +21,11 @@ Energies Accounts::energies(const State& y, double t) {
     const auto bending = sections_.energies(curvatures_, mesh.section_weights());
     sum.bending_elastic = bending.elastic + mesh.shear_energy(beam_.beam_positions(y));
     sum.bending_plastic = bending.plastic;
+    if (const Tension* tension = beam_.tension()) {
+      const Tension::Energies axial = tension->energies(beam_.beam_positions(y));
+      sum.bending_elastic += axial.elastic;
+      sum.bending_plastic += axial.plastic;
+    }
   }
   const ContactState::Energies contact = beam_.contact().energies(beam_.indentation(y));
   sum.contact_elastic = contact.elastic;

@@ -39,6 +39,10 @@ SupportReactions::Eliminated SupportReactions::eliminated(
     }
     return result;
   }
+  if (const Tension* tension = beam_.tension()) {
+    result.of_tension.resize(g.size());
+    tension->form().multiply(g, result.of_tension);
+  }
   result.of_moments.resize(mesh.n_sections());
   mesh.moment_weights(g, result.of_moments);
   if (mesh.shears()) {
@@ -101,6 +105,10 @@ double SupportReactions::value(const Eliminated& of, double t, const State& y,
   value += sum(of.of_moments, moments);
   if (!of.of_loads.empty()) value += beam_.loads().potential(of.of_loads, t);
   value += sum(of.of_unknowns, beam_.beam_positions(y));
+  if (!of.of_tension.empty()) {
+    const auto unknowns = beam_.beam_positions(y);
+    value -= beam_.tension()->at(unknowns) * sum(of.of_tension, unknowns);
+  }
   return value + sum(of.of_velocities, beam_.beam_velocities(y));
 }
 

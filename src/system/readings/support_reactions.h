@@ -31,6 +31,7 @@ class SupportReactions {
     std::vector<double> of_unknowns;    // -K_s g, in modes -stiffness g; none where neither exists
     std::vector<double> of_velocities;  // -C g; none without damping inside the beam
     std::vector<double> of_loads;       // g
+    std::vector<double> of_tension;     // G g; none without tension
     double of_force = 0.0;              // S.g
   };
   Eliminated eliminated(std::span<const double> functional) const;

@@ -31,6 +31,8 @@ struct SparseFunctional {
   }
   /// Adds `factor` times another functional of few terms; terms that cancel are removed.
   void add(double factor, const SparseFunctional& other);
+  /// to += factor * coefficients coefficients^T, of few terms within the band of `to`.
+  void add_square(double factor, BandedMatrix& to) const;
   /// forces += amount * coefficients: the generalised force of a point load `amount`.
   void add_to(std::span<double> forces, double amount) const {
     if (!dense.empty()) {
@@ -158,6 +160,17 @@ class BeamMesh {
   /// Nothing on a mesh without these functions: a run then has no shapes.
   virtual std::optional<SparseFunctional> displacement_at(double /*x*/) const { return {}; }
   virtual std::optional<SparseFunctional> rotation_at(double /*x*/) const { return {}; }
+  /// The slope w' of the axis at a point, and the length (m) of beam that it stands for.
+  struct Slope {
+    double weight;
+    SparseFunctional value;  ///< rad
+  };
+  /// Points that give the integral of w'^2 over the beam as a sum; none on a mesh without them: its
+  /// beam cannot stretch.
+  virtual std::vector<Slope> slopes() const { return {}; }
+  /// That integral as a quadratic form q^T G q, G in 1/m, in the band of add_stiffness(); of size
+  /// zero without slopes.
+  BandedMatrix slope_form() const;
   /// Half bandwidth of B^T B and K_s.
   std::size_t stiffness_bandwidth() const;
   /// result += B^T W diag(tangents) B + K_s, N/m; `tangents` = dM/dkappa of the sections, N m2. The

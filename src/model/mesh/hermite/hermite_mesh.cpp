@@ -8,6 +8,7 @@
 
 #include "model/mesh/modes.h"
 #include "numerics/bracketed_root.h"
+#include "numerics/gauss.h"
 
 namespace subimpact {
 
@@ -272,6 +273,17 @@ std::optional<SparseFunctional> HermiteMesh::rotation_at(double x) const {
   }
   if (symmetric() && e + 1 == nodes_.n_elements() && z == 1.0) return SparseFunctional{};
   return of_element(e, element(e).slope(z));
+}
+
+std::vector<BeamMesh::Slope> HermiteMesh::slopes() const {
+  std::vector<Slope> all;
+  for (std::size_t e = 0; e < nodes_.n_elements(); ++e) {
+    for (std::size_t g = 0; g < 3; ++g) {  // exact for squares of parabolas
+      all.push_back({copies() * gauss<3>.weights[g] * nodes_.lengths[e],
+                     of_element(e, element(e).slope(gauss<3>.points[g]))});
+    }
+  }
+  return all;
 }
 
 // The highest frequency of any single element. A hinge between two lengths has the energy EI/(2 L)

@@ -31,6 +31,7 @@ class HermiteMesh final : public BeamMesh {
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
+  std::vector<Slope> slopes() const override;
   /// Found by bisection to 5e-6, from above.
   double highest_frequency(double bending_stiffness) const override;
   /// In closed form if all elements are equal, without hinges, unless one end is free and the other

@@ -241,6 +241,21 @@ std::optional<SparseFunctional> SpectralMesh::rotation_at(double x) const {
   return rotation;
 }
 
+std::vector<BeamMesh::Slope> SpectralMesh::slopes() const {
+  std::vector<Slope> all;
+  for (const Element& element : elements_) {
+    for (std::size_t q = 0; q < n_points; ++q) {
+      all.push_back({copies() * gauss<n_points>.weights[q] * element.length, {}});
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        const std::size_t unknown = element.unknowns[2 * a];
+        if (unknown == held) continue;
+        all.back().value.terms.push_back({unknown, shapes.slope[q][a] / element.length});
+      }
+    }
+  }
+  return all;
+}
+
 const double* SpectralMesh::read(const Element& element, const double* unknowns, Values& values) {
   if (element.is_contiguous) return unknowns + element.unknowns[0];
   for (std::size_t i = 0; i < values.size(); ++i) {

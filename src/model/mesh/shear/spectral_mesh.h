@@ -41,6 +41,7 @@ class SpectralMesh final : public BeamMesh {
   /// Polynomials of degree 4 in each element.
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
+  std::vector<Slope> slopes() const override;
   double highest_frequency(double bending_stiffness) const override;
   NaturalModes natural_modes(double bending_stiffness) const override;
   bool has_closed_modes() const override;

@@ -118,15 +118,8 @@ void TimoshenkoMesh::assemble_moment() {
 
 void TimoshenkoMesh::assemble_shear() {
   shear_stiffness_ = BandedMatrix(n_unknowns(), 2);
-  using Term = SparseFunctional::Term;
-  // Half the square of a shear strain, weighted.
-  const auto add = [&](std::initializer_list<Term> strain, double weight) {
-    for (const Term& a : strain) {
-      for (const Term& b : strain) {
-        if (a.unknown > b.unknown) continue;
-        shear_stiffness_.at(a.unknown, b.unknown) += weight * a.coefficient * b.coefficient;
-      }
-    }
+  const auto add = [&](std::vector<SparseFunctional::Term> strain, double weight) {
+    SparseFunctional{std::move(strain), {}}.add_square(weight, shear_stiffness_);
   };
   const double turn = -1.0 / gyration_;
   for (std::size_t i = 0; i + 1 < n_nodes_; ++i) {
@@ -197,6 +190,18 @@ SparseFunctional TimoshenkoMesh::at(const std::vector<Place>& places, double x) 
   const auto after = std::clamp(std::ranges::upper_bound(places, x, {}, &Place::x),
                                 places.begin() + 1, places.end() - 1);
   return between(*(after - 1), *after, x);
+}
+
+std::vector<BeamMesh::Slope> TimoshenkoMesh::slopes() const {
+  std::vector<Slope> all;
+  for (auto next = displacements_.begin() + 1; next != displacements_.end(); ++next) {
+    const Place& before = *(next - 1);
+    const double length = next->x - before.x;
+    all.push_back({copies() * length, {}});
+    all.back().value.add(1.0 / length, next->value);
+    all.back().value.add(-1.0 / length, before.value);
+  }
+  return all;
 }
 
 void TimoshenkoMesh::place_sections() {

@@ -43,6 +43,8 @@ class TimoshenkoMesh final : public BeamMesh {
   }
   /// Straight between faces; constant in the end cell of a free end, where nothing bends.
   std::optional<SparseFunctional> rotation_at(double x) const override { return at(rotations_, x); }
+  /// Straight between nodes.
+  std::vector<Slope> slopes() const override;
   /// The upper branch of the infinite grid of the shorter cells at its shortest wave.
   double highest_frequency(double bending_stiffness) const override;
   /// From one equation in each frequency if both ends are free and all cells alike.

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "numerics/snapshot.h"
+#include "subimpact/model/scene.h"
+#include "subimpact/numerics/banded_matrix.h"
+
+namespace subimpact {
+
+/// The tension of a beam whose ends are held along it, one number for all sections: it resists the
+/// elongation e of the axis, elastically up to Y A and perfectly plastically there,
+///
+///     e = 1/2 integral of w'^2 dx = q^T G q/2,   N = E A (e - e_p)/l,   |N| <= Y A,
+///
+/// with the plastic elongation e_p, which commit() alone advances. It adds the forces -N G q, the
+/// elastic energy N^2 l/(2 E A) and the plastic work Y A |de_p|; between two calls of commit() N is
+/// a function of e, so that forces and energies belong together. Yield of the sections in bending
+/// is not affected. Source: S. Woinowsky-Krieger, J. Appl. Mech. 17 (1950) 35, while elastic.
+class Tension {
+ public:
+  /// `form`: G, 1/m. `limit`: Y A, N; infinite where the beam does not yield.
+  Tension(BandedMatrix form, const Beam& beam, double limit);
+
+  const BandedMatrix& form() const { return form_; }
+  double at(std::span<const double> unknowns) const;  ///< N, in N
+  double limit() const { return limit_; }             ///< Y A, N
+  /// forces -= N G q.
+  void add_to(std::span<double> forces, std::span<const double> unknowns);
+
+  struct Energies {
+    double elastic, plastic;  ///< J
+  };
+  Energies energies(std::span<const double> unknowns) const;
+
+  void commit(std::span<const double> unknowns);
+  /// What commit() has advanced.
+  void exchange(Snapshot& snapshot) { snapshot(plastic_, work_); }
+
+ private:
+  // Elastic tension, beyond the limit too.
+  double trial(double square) const { return stiffness_ * (0.5 * square - plastic_); }
+
+  BandedMatrix form_;
+  double stiffness_;  // E A/l, N/m
+  double limit_;
+  double plastic_ = 0.0, work_ = 0.0;  // e_p, m; plastic work, J
+  std::vector<double> product_;        // G q
+};
+
+}  // namespace subimpact
