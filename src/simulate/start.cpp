@@ -98,14 +98,12 @@ void check_approach(const Problem& problem) {
 }
 
 void check_axial(const Beam& beam) {
-  if (!beam.stretches()) return;
-  for (const int end : {0, 1}) {
-    if (beam.ends[end] != EndSupport::free) continue;
-    refuse("beam.axial",
-           "is \"held\", but the end at x = {} is free; allowed where both beam.ends are pinned or "
-           "clamped; leave it out, or support that end",
-           end == 0 ? "0" : "length");
-  }
+  const bool is_first = beam.ends[0] == EndSupport::free;
+  if (!beam.stretches() || (!is_first && beam.ends[1] != EndSupport::free)) return;
+  refuse("beam.axial",
+         "is \"held\", but the end at x = {} is free; allowed where both beam.ends are pinned or "
+         "clamped; leave it out, or support that end",
+         is_first ? "0" : "length");
 }
 
 void check_elastic(const StruckBeam& beam, std::span<const double> q) {
@@ -113,22 +111,19 @@ void check_elastic(const StruckBeam& beam, std::span<const double> q) {
   if (!sections.can_yield()) return;
   std::vector<double> kappa(sections.size());
   beam.mesh().curvatures(q, kappa);
-  double largest = 0.0;
+  const Tension* tension = beam.tension();
+  double largest = tension != nullptr ? tension->at(q) / tension->limit() : 0.0;
   for (std::size_t i = 0; i < kappa.size(); ++i) {
     const double limit = kappa[i] > 0.0 ? sections.window_high()[i] : -sections.window_low()[i];
     largest = std::max(largest, std::abs(kappa[i]) / limit);
   }
-  if (const Tension* tension = beam.tension(); tension && tension->at(q) >= tension->limit()) {
-    refuse(
-        "beam.start",
-        "is \"equilibrium\", but under its loads the beam, held along it, would yield in tension; "
-        "allowed: loads that leave it elastic; reduce them, or start straight");
-  }
   if (largest < 1.0) return;
-  refuse("beam.start",
-         "is \"equilibrium\", but under its loads the beam would be bent to {:.3g} times its yield "
-         "curvature; allowed: loads that leave it elastic; reduce them, or start straight",
-         largest);
+  refuse(
+      "beam.start",
+      "is \"equilibrium\", but under its loads the beam would be bent or stretched to {:.3g} times "
+      "its yield curvature or stress; allowed: loads that leave it elastic; reduce them, or start "
+      "straight",
+      largest);
 }
 
 std::vector<double> rigid_velocities(const Problem& problem, const StruckBeam& beam) {

@@ -52,10 +52,11 @@ void BeamJacobian::mass_entries(std::span<double> values) const {
 }
 
 void BeamJacobian::stiffness_entries(std::span<const double> tangents, double contact_slope,
-                                     std::span<double> values, const Axial& axial) {
+                                     std::span<double> values, double tension,
+                                     const BandedMatrix* form) {
   bending_.set_zero();
   mesh_.add_stiffness(tangents, bending_);
-  if (axial.form != nullptr) bending_.add(axial.tension, *axial.form);
+  if (form != nullptr) bending_.add(tension, *form);
   copy_band(bending_, values);
   add_contact(contact_slope, values);
 }

@@ -23,14 +23,11 @@ class BeamJacobian {
 
   const SparsityPattern& pattern() const { return pattern_; }
   void mass_entries(std::span<double> values) const;
-  /// A tension (N) and its form G; none: null.
-  struct Axial {
-    double tension;
-    const BandedMatrix* form;
-  };
-  /// `tangents` = dM/dkappa (N m2) of the sections; `contact_slope` = dF/dlambda (N/m).
+  /// `tangents` = dM/dkappa (N m2) of the sections; `contact_slope` = dF/dlambda (N/m); `tension`
+  /// (N) times `form` (G), if any, joins the beam's stiffness.
   void stiffness_entries(std::span<const double> tangents, double contact_slope,
-                         std::span<double> values, const Axial& axial = {});
+                         std::span<double> values, double tension = 0.0,
+                         const BandedMatrix* form = nullptr);
   /// Adds slope g g^T.
   void add_contact(double slope, std::span<double> values) const;
 

@@ -197,16 +197,17 @@ void StruckBeam::stiffness_entries(std::span<const double> y, Part part, std::sp
                         : sections_.tangent(i, curvatures_[i]);
     }
   }
-  // Of the tension only the part that is banded; what its change adds is of rank one.
-  BeamJacobian::Axial axial{};
-  if (tension_ && part != Part::rest) axial = {tension_->at(unknowns), &tension_->form()};
   double slope = 0.0;
   if (part != Part::stiff) {
     const double lambda = y[n_] - mesh_->struck_point()(unknowns);
     slope =
         contact_.is_damped() ? contact_.slope(lambda, indentation_rate(y)) : contact_.slope(lambda);
   }
-  jacobian().stiffness_entries(moments_, slope, values, axial);
+  if (!tension_ || part == Part::rest) {
+    return jacobian().stiffness_entries(moments_, slope, values);
+  }
+  // What a change of the tension adds is of rank one, not banded, and left out.
+  jacobian().stiffness_entries(moments_, slope, values, tension_->at(unknowns), &tension_->form());
 }
 
 void StruckBeam::damping_entries(std::span<const double> y, Part part, std::span<double> values) {

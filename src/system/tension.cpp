@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "numerics/lanes.h"
 
@@ -13,30 +14,28 @@ Tension::Tension(BandedMatrix form, const Beam& beam, double limit)
       limit_(limit),
       product_(form_.size()) {}
 
-double Tension::at(std::span<const double> unknowns) const {
-  return std::clamp(trial(form_.quadratic_form(unknowns)), -limit_, limit_);
+Tension::Response Tension::response(double square) const {
+  const double elastic = stiffness_ * (0.5 * square - plastic_);
+  const double tension = std::clamp(elastic, -limit_, limit_);
+  const double flow = (elastic - tension) / stiffness_;
+  return {tension, flow, flow == 0.0 ? 0.0 : limit_ * std::abs(flow)};
 }
 
 void Tension::add_to(std::span<double> forces, std::span<const double> unknowns) {
   form_.multiply(unknowns, product_);
-  const double square = dot(product_.data(), unknowns.data(), product_.size());
-  const double tension = std::clamp(trial(square), -limit_, limit_);
+  const double tension = response(dot(product_.data(), unknowns.data(), product_.size())).tension;
   for (std::size_t i = 0; i < product_.size(); ++i) forces[i] -= tension * product_[i];
 }
 
 Tension::Energies Tension::energies(std::span<const double> unknowns) const {
-  const double beyond = trial(form_.quadratic_form(unknowns));
-  const double tension = std::clamp(beyond, -limit_, limit_);
-  const double flow = std::abs(beyond - tension) / stiffness_;
-  return {0.5 * tension * tension / stiffness_, work_ + (flow > 0.0 ? limit_ * flow : 0.0)};
+  const auto [tension, flow, work] = response(form_.quadratic_form(unknowns));
+  return {0.5 * tension * tension / stiffness_, work_ + work};
 }
 
 void Tension::commit(std::span<const double> unknowns) {
-  const double beyond = trial(form_.quadratic_form(unknowns));
-  const double flow = (beyond - std::clamp(beyond, -limit_, limit_)) / stiffness_;
-  if (flow == 0.0) return;
-  plastic_ += flow;
-  work_ += limit_ * std::abs(flow);
+  const Response now = response(form_.quadratic_form(unknowns));
+  plastic_ += now.flow;
+  work_ += now.work;
 }
 
 }  // namespace subimpact

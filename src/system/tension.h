@@ -25,8 +25,11 @@ class Tension {
   Tension(BandedMatrix form, const Beam& beam, double limit);
 
   const BandedMatrix& form() const { return form_; }
-  double at(std::span<const double> unknowns) const;  ///< N, in N
-  double limit() const { return limit_; }             ///< Y A, N
+  double limit() const { return limit_; }  ///< Y A, N
+  /// N, in N.
+  double at(std::span<const double> unknowns) const {
+    return response(form_.quadratic_form(unknowns)).tension;
+  }
   /// forces -= N G q.
   void add_to(std::span<double> forces, std::span<const double> unknowns);
 
@@ -40,8 +43,11 @@ class Tension {
   void exchange(Snapshot& snapshot) { snapshot(plastic_, work_); }
 
  private:
-  // Elastic tension, beyond the limit too.
-  double trial(double square) const { return stiffness_ * (0.5 * square - plastic_); }
+  // To q^T G q: N, the change of e_p (m) and its work (J).
+  struct Response {
+    double tension, flow, work;
+  };
+  Response response(double square) const;
 
   BandedMatrix form_;
   double stiffness_;  // E A/l, N/m
