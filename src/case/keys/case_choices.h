@@ -39,9 +39,8 @@ inline constexpr Named<EndSupport> choices<EndSupport>[] = {
 
 template <>
 inline constexpr Named<AxialEnds> choices<AxialEnds>[] = {
-    {AxialEnds::free, "free", "they may approach each other: no tension"},
-    {AxialEnds::held, "held",
-     "they may not: the beam stretches as it bends, up to its yield stress"},
+    {AxialEnds::free, "free", "ends may approach each other: no tension"},
+    {AxialEnds::held, "held", "ends keep their distance: bending stretches the beam"},
 };
 
 template <>

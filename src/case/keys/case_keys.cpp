@@ -318,7 +318,7 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.poisson", "", poisson, "Poisson's ratio, for theory = \"timoshenko\" and for contact.law = \"sphere\", \"line\", or \"hertz\" without stiffness", "0.3 where theory or contact law need it", AT(scene.beam.poisson)),
     row("beam.shear_coefficient", "", positive_share, "shear coefficient k of theory = \"timoshenko\": k G A is the shear stiffness", "Cowper's for the section; of a rectangle 10 (1 + nu)/(12 + 11 nu)", AT(scene.beam.shear_coefficient)),
     row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
-    row("beam.axial", "", any_value, "the ends along the beam", as_in_case, AT(scene.beam.axial)),
+    row("beam.axial", "", any_value, "what supports at both ends do along the beam", as_in_case, AT(scene.beam.axial)),
     row("beam.load", "N/m", finite, "uniform load along the strike, constant from t = 0", as_in_case, AT(scene.beam.load)),
     row("beam.forces", "N", finite, "forces at points along the strike, each constant or linear between the points (t, F) of a table", "[]", AT(scene.beam.forces)),
     row("beam.springs", "N/m", positive, "linear springs between points and the ground", "[]", AT(scene.beam.springs)),
