@@ -254,8 +254,8 @@ struct Contact {
   /// p_y, Pa: contact pressure at which the softer body yields; by default 1.6 Y (sphere), 1.67 Y
   /// (line).
   std::optional<double> yield_pressure = {};
-  /// In place of p_y: the mean pressure rises with the depth of the dent (sphere from the
-  /// mid-plane, line).
+  /// In place of p_y: the mean pressure rises with the depth of the dent, by the model of an
+  /// expanding core (sphere, line).
   bool pressure_by_depth = false;
   /// By default the half-space (sphere, hertz); a line contact knows the mid-plane alone.
   std::optional<IndentationFrom> indentation = {};
