@@ -16,8 +16,7 @@ namespace {
 struct RunOptions {
   CaseOptions input;
   std::string directory;
-  std::string continued;  // empty, or a directory
-  bool all = false;       // rows of the table
+  bool all = false;  // rows of the table
   std::string model_errors = "on";
   bool verbose = false;
   std::string error_bars;  // empty: from coarser meshes; "off", "time" or "all"
@@ -27,12 +26,6 @@ struct RunOptions {
 
 std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOptions& options) {
   if (options.error_bars.empty()) return std::nullopt;
-  if (!options.continued.empty() && options.error_bars != "off") {
-    throw CaseFileError(
-        fmt::format("--error-bars={}: cannot go with --continue: the errors of a continued run "
-                    "come from the runs beside the earlier run; leave out --error-bars",
-                    options.error_bars));
-  }
   if (loaded.value.accuracy.event_times) {
     throw CaseFileError(fmt::format(
         "--error-bars={}: cannot go with a tolerance on event times, whose errors come from other "
@@ -43,21 +36,8 @@ std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOption
   return options.error_bars == "time" ? ErrorBars::time : ErrorBars::all;
 }
 
-// The rows of the run whose strike goes on come first, as far as this one has such rows.
-void add_rows_before(const Case& input, const FinishedRun& before, ResultWriter& files) {
-  const auto add = [&](const auto& rows) {
-    for (const auto& row : rows) files.add(row);
-  };
-  const OutputOptions &now = input.output, &then = before.input.output;
-  if (now.has_history()) add(before.result.history);
-  if (now.sections == then.sections) add(before.result.section_history);
-  if (now.points == then.points) add(before.result.point_history);
-  if (now.shapes != 0.0 && now.shape_points == then.shape_points) add(before.result.shapes);
-}
-
 WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOptions& options,
-                     const InterruptListener& listener, ResultWriter& files,
-                     const std::optional<FinishedRun>& before) {
+                     const InterruptListener& listener, ResultWriter& files) {
   ProgressDisplay progress(loaded.value.end_time, options.quiet, listener);
   RunRequest request;
   request.error_bars = error_bars_of(loaded, options);
@@ -66,7 +46,6 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
   request.announce = [&progress](const std::string& what) { progress.show_run(what); };
   request.rows = [&] {
     files.restart();
-    if (before) add_rows_before(loaded.value, *before, files);
     return &files;
   };
   request.resolved = std::move(resolved);
@@ -184,12 +163,6 @@ std::string next_lines(std::vector<NextStep> steps, const std::string& directory
 int run(RunOptions& options) {
   LoadedCase loaded = options.input.load();
   error_bars_of(loaded, options);
-  std::optional<FinishedRun> before;
-  if (!options.continued.empty()) before = continue_from(options.continued, loaded);
-  const Striker& striker = loaded.value.scene.striker;
-  if (before && !goes_on(before->result.end_state.get(), striker, loaded.value.at_rest)) {
-    before.reset();  // its rows are those of another strike
-  }
   // Refuses what cannot be modelled before anything is written.
   ResolvedRun resolved = with_places(loaded, [&] { return resolve(loaded.value); });
   with_places(loaded, [&] { check_memory(resolved.settings()); });
@@ -199,12 +172,7 @@ int run(RunOptions& options) {
   const std::vector<std::string> doubts = print_doubts(loaded, options.quiet);
   InterruptListener listener;
   const WithinRun finished = with_places(loaded, [&] {
-    WithinRun run = run_loaded(loaded, std::move(resolved), options, listener, files, before);
-    if (before) {
-      if (run.input.output.has_history())
-        run.result.n_history_rows += before->result.n_history_rows;
-      run.result.n_shape_rows += before->result.n_shape_rows;
-    }
+    WithinRun run = run_loaded(loaded, std::move(resolved), options, listener, files);
     add_scatter(run, options, listener);
     run.result.next_steps = next_steps(options, loaded.given, run);
     make_answers(run.input, run.result);
@@ -258,11 +226,6 @@ void add_run(CLI::App& program, int& status) {
   options.input.add_within_to(command);
   options.input.add_opening_to(command);
   options.input.may_repeat = true;
-  command.add_option(
-      "--continue", options.continued,
-      "Continues the finished run in this directory to a later "
-      "time.end; with another striker, or strike.rest, the beam there is struck "
-      "again. Keys of model and solver that CASE does not give are those of that run");
   command
       .add_flag("--error-bars{all}", options.error_bars,
                 "By default all errors are estimated from runs on three coarser meshes, which take "
@@ -290,8 +253,6 @@ void add_run(CLI::App& program, int& status) {
       "  subimpact run case.toml --error-bars\n"
       "  subimpact run case.toml --error-bars=time\n"
       "  subimpact run case.toml --method central-difference --set solver.step=1e-7\n"
-      "  subimpact run case.toml --continue case-results --set time.end=0.02\n"
-      "  subimpact run case.toml --continue case-results --set strike.rest=true --out second\n"
       "  subimpact run case.toml --set beam.ends=free,free --set 'title=\"Second try\"'\n"
       "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "
       "validity; 3 a check or the solver failed, or results could not be written to DIR; 128 and "

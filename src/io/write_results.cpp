@@ -224,7 +224,6 @@ void ResultWriter::finish(const Case& input, const Result& result) {
     write_table(run_table<SubImpact>());
     write_table(run_table<Transition>());
     write_file(place / "summary.json", summary_json(input, result));
-    if (result.end_state) write_file(place / state_name, state_json(*result.end_state));
     if (may_write_case(directory_.path())) write_file(place / case_name, case_file_text(input));
     directory_.commit();
   });

@@ -43,7 +43,6 @@ class NearMissSearch {
   /// Appends the near misses of the contact or separation that ends, in order of time: those whose
   /// margin is below half of the largest gap reached. `residual`: lambda_r at its end, m.
   void finish(double residual, std::vector<NearMiss>& near_misses);
-  void exchange(Snapshot& snapshot);
 
  private:
   static constexpr std::size_t most_kept = 8;

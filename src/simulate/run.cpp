@@ -81,11 +81,7 @@ void count_work(const Integrator& integrator, const StruckBeam& beam, const Even
 // Steps to the end, or to where the run is stopped.
 void run_to_end(EventLoop& loop, RunParts& parts, const Progress& progress,
                 const Observer* observer, Result& result) {
-  if (goes_on(parts.problem)) {
-    loop.resume(parts.problem.start->time, parts.beam.initial_state());
-  } else {
-    loop.start();
-  }
+  loop.start();
   std::optional<NoMoreContact> no_more_contact;
   const auto is_over = [&] {
     if (parts.beam.contact().is_closed()) return false;
@@ -207,14 +203,13 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   const OutputOptions& output = parts.given.output;
   StruckBeam& beam = parts.beam;
   Result result;
-  if (parts.problem.start) begin_from(*parts.problem.start, parts);
+  if (parts.problem.start) begin_next_strike(parts);
   Audit audit(beam, beam.initial_state(), {used.energy_tolerance, tolerated_momentum});
   Recorder recorder(beam, output.history_interval(parts.given.end_time), used.events, audit, result,
                     rows);
   if (!output.interval) recorder.follow_force();
   recorder.keep_fields(parts);
   if (observer != nullptr) recorder.show(*observer);
-  if (goes_on(parts.problem)) read_records(*parts.problem.start, audit, recorder);
   EventLoop loop(beam, integrator, recorder, audit, loop_options(parts));
   result.work.setup_seconds = seconds_since(start);
 
@@ -234,9 +229,7 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   result.outcome.time =
       result.outcome.first_failure ? result.outcome.first_failure->to : loop.time();
   result.contact_over = result.no_more_contact.has_value();
-  if (result.is_usable()) {
-    result.end_state = end_state(parts, loop.time(), loop.state(), audit, recorder);
-  }
+  if (result.is_usable()) result.end_state = beam.end_state(loop.state());
   recorder.finish(loop.time(), loop.state(), beam, !result.outcome.first_failure);
   const auto& contacts = result.sub_impacts;
   if (!contacts.empty() && !contacts.back().end && !beam.loads().is_empty() &&

@@ -14,8 +14,6 @@
 
 namespace subimpact {
 
-class Recorder;
-
 enum class Coordinates {
   chosen,  ///< natural modes for an elastic beam where the method needs them or they are cheaper
   of_mesh  ///< the mesh's own
@@ -60,23 +58,11 @@ void check_start(const Problem& problem);
 /// displacements K^-1 f(0) in equilibrium. Throws InvalidCase where a section would yield.
 void set_start(const Problem& problem, StruckBeam& beam);
 
-inline bool goes_on(const Problem& problem) {
-  return goes_on(problem.start.get(), problem.striker, problem.at_rest);
-}
-
-/// Refuses (InvalidCase) a start of another mesh, section, contact law or struck point, an end
-/// before it, and a gap before a beam that moves.
-void check_continuation(const Problem& problem, const Options& options,
-                        const ResolvedSettings& used);
-
+/// Refuses (InvalidCase) another strike on a beam with loads, a stop or a motion of its own, and a
+/// gap before a beam that moves.
+void check_next_strike(const Problem& problem);
 /// Puts the beam into the state that Problem::start describes. Throws InvalidCase.
-void begin_from(const RunState& start, RunParts& parts);
-/// Reads accounts and records of `start`, for a run that continues the strike of that state.
-void read_records(const RunState& start, Audit& audit, Recorder& recorder);
-
-/// State of a run that has reached `time` (s) and y, before its records are closed.
-std::shared_ptr<const RunState> end_state(RunParts& parts, double time, State y, Audit& audit,
-                                          Recorder& recorder);
+void begin_next_strike(RunParts& parts);
 
 /// Bytes that a process may still take: what the machine has free (Linux: MemAvailable), and less
 /// where a limit of the process (ulimit -v), of its control group or of one above is lower. Pages

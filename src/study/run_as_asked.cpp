@@ -16,55 +16,36 @@
 namespace subimpact {
 namespace {
 
-// The runs beside an earlier run, from where these stood; none if it had none.
-std::vector<CaseBeside> cases_that_go_on(const Case& input) {
-  const auto& states = input.parts.start->beside;
-  for (const auto make :
-       {cases_beside, cases_beside_on_given_mesh, cases_beside_in_time, cases_beside_by_part}) {
-    Case first = input;
-    first.parts.start.reset();
-    std::vector<CaseBeside> cases = make(first);
-    const auto is_of = [](const CaseBeside& beside, const auto& state) {
-      return beside.description == state.first;
-    };
-    if (cases.empty() || !std::ranges::equal(cases, states, is_of)) continue;
-    for (std::size_t k = 0; k < cases.size(); ++k) cases[k].input.parts.start = states[k].second;
-    return cases;
-  }
-  return {};
-}
-
 std::vector<CaseBeside> cases_asked_for(const Case& input, const RunRequest& request) {
-  if (input.parts.start && request.error_bars != ErrorBars::off) return cases_that_go_on(input);
   if (!request.error_bars) return cases_beside_on_given_mesh(input);
   if (request.error_bars == ErrorBars::off) return {};
   if (request.error_bars == ErrorBars::all) return cases_beside_by_part(input);
   return cases_beside_in_time(input);
 }
 
-Result simulate_as_given(const Case& input, RunRequest& request) {
+// `beside`: the cases that judge the run, if they are known.
+WithinRun run_as_given(const Case& input, RunRequest& request,
+                       const std::vector<CaseBeside>* beside) {
+  WithinRun run{input, {}, {}};
   RowSink* rows = request.rows ? request.rows() : nullptr;
   if (request.error_bars == ErrorBars::off && request.resolved) {
-    return simulate(std::move(*request.resolved), request.progress, nullptr, rows);
+    run.result = simulate(std::move(*request.resolved), request.progress, nullptr, rows);
+    return run;
   }
   resolve(input);  // whatever is wrong with the case itself
-  Result run;
-  std::vector<RunBeside> beside;
-  maker_of(request)(input, cases_asked_for(input, request), rows, run, beside);
+  maker_of(request)(input, beside != nullptr ? *beside : cases_asked_for(input, request), rows,
+                    run.result, run.beside);
   return run;
 }
 
-WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& request) {
+WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& request,
+                   const std::vector<CaseBeside>* beside = nullptr) {
   const auto start = std::chrono::steady_clock::now();
   const std::optional<OpenChoices> open = choices_left(input, given, request.error_bars);
-  WithinRun run = open ? simulate_within(input, *open, request)
-                       : WithinRun{input, simulate_as_given(input, request)};
+  WithinRun run =
+      open ? simulate_within(input, *open, request) : run_as_given(input, request, beside);
   const bool is_interrupted = run.result.outcome.kind == OutcomeKind::stopped;
   const bool is_first = !input.parts.start;
-  if (!is_first && request.error_bars != ErrorBars::off && !run.result.error_estimate) {
-    run.result.warnings.push_back(
-        "errors are not known: the earlier run had no runs beside it that could be continued too");
-  }
   const bool has_errors = request.error_bars != ErrorBars::off && !is_interrupted && is_first;
   if (has_errors && request.model_errors) {
     run.result.model_errors = model_errors(run.input, run.result, request.progress);
@@ -72,6 +53,17 @@ WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& reques
   run.result.work.all_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
+}
+
+// The cases beside a strike for the next one; none unless each of them has an end.
+std::vector<CaseBeside> cases_of_next_strike(std::vector<RunBeside> beside) {
+  std::vector<CaseBeside> cases;
+  for (RunBeside& other : beside) {
+    if (!other.result.end_state) return {};
+    cases.push_back(std::move(other.of));
+    cases.back().input.parts.start = std::move(other.result.end_state);
+  }
+  return cases;
 }
 
 StrikeRow row_of(int strike, const WithinRun& run) {
@@ -107,12 +99,12 @@ WithinRun strike_repeatedly(Case next, const GivenKeys& given, RunRequest& reque
   request.resolved.reset();
   std::vector<StrikeRow> strikes;
   std::optional<WithinRun> run;
+  std::vector<CaseBeside> beside;
   for (int k = 1; k <= n; ++k) {
     if (k == n) request.rows = rows;
-    if (next.parts.start && !next.at_rest) next.at_rest = true;
     if (request.announce) request.announce(fmt::format("strike {} of {}", k, n));
     try {
-      run = run_once(next, given, request);
+      run = run_once(next, given, request, k > 1 ? &beside : nullptr);
     } catch (const InvalidCase& error) {
       if (!run) throw;
       run->result.outcome.kind = OutcomeKind::left_validity;
@@ -123,6 +115,7 @@ WithinRun strike_repeatedly(Case next, const GivenKeys& given, RunRequest& reque
     strikes.push_back(row_of(k, *run));
     next = run->input;
     next.parts.start = run->result.end_state;
+    beside = cases_of_next_strike(std::move(run->beside));
   }
   run->result.strikes = std::move(strikes);
   run->input.strikes = n;
@@ -134,12 +127,7 @@ WithinRun strike_repeatedly(Case next, const GivenKeys& given, RunRequest& reque
 std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& given,
                                         const std::optional<ErrorBars>& error_bars) {
   const OpenChoices open = open_choices(given);
-  if (input.parts.start) {
-    if (!input.accuracy.event_times) return std::nullopt;
-    throw InvalidCase("accuracy.event_times",
-                      "is given, but a run that goes on from another one stays on its mesh; leave "
-                      "it out");
-  }
+  if (input.parts.start) return std::nullopt;  // on the mesh of the strike before
   if (input.accuracy.event_times) {
     if (!error_bars) return open;
     throw InvalidCase("accuracy.event_times",

@@ -84,14 +84,6 @@ Loads::Resultant Loads::resultant(double t) const {
   return sum;
 }
 
-void Loads::exchange(Snapshot& snapshot) {
-  double start = start_, before = impulse_before_;
-  snapshot(start, before);
-  if (!snapshot.reads()) return;
-  begin_piece(start);
-  impulse_before_ = before;
-}
-
 double Loads::impulse(double t) const {
   return impulse_before_ + 0.5 * (t - start_) * (resultant(start_).force + resultant(t).force);
 }

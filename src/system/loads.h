@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "numerics/snapshot.h"
 #include "subimpact/model/mesh/beam_mesh.h"
 #include "subimpact/model/scene.h"
 
@@ -54,9 +53,6 @@ class Loads {
   Resultant resultant(double t) const;
   /// Integral of the force from 0 to t, N s; t within the piece in force.
   double impulse(double t) const;
-
-  /// The piece in force and the impulse before it.
-  void exchange(Snapshot& snapshot);
 
  private:
   struct Point {

@@ -9,7 +9,6 @@
 #include "model/mesh/modal_mesh.h"
 #include "model/section/section_field.h"
 #include "numerics/mass_solver.h"
-#include "numerics/snapshot.h"
 #include "ode/second_order_ode.h"
 #include "subimpact/model/mesh/beam_mesh.h"
 #include "subimpact/model/scene.h"
@@ -51,6 +50,14 @@ struct Losses {
 struct SectionMotion {
   std::vector<double> curvatures, rates;
   explicit SectionMotion(std::size_t n_sections) : curvatures(n_sections), rates(n_sections) {}
+};
+
+/// A beam at the end of a run, which another strike finds as it is (Problem::start).
+struct EndState {
+  State motion;  ///< m and m/s, of the mesh's unknowns and the striker
+  ContactHistory contact;
+  SectionField sections;
+  std::optional<Tension> tension;
 };
 
 /// The equations of motion of the struck beam: smooth between events, with histories that only
@@ -117,23 +124,21 @@ class StruckBeam final : public MechanicalSystem {
   /// Damping force over velocity and mass of each of these modes, 1/s.
   std::span<const double> modal_damping() const { return modal_damping_; }
 
-  /// The state at the start: zero displacements and a beam at rest, unless set by set_start(),
-  /// resume() or begin_strike(). Accounts of energies and momenta begin with it.
+  /// The state at the start: zero displacements and a beam at rest, unless set by set_start() or
+  /// begin_strike(). Accounts of energies and momenta begin with it.
   State initial_state() const;
   void set_start(State start);
   /// (K + N G)^-1 f of the loads f at the start of their piece, with the stiffness K of an elastic
   /// beam: its displacements at rest under them. Nothing if K is not positive definite.
   std::optional<std::vector<double>> equilibrium() const;
-  /// Histories and the accepted state y that they hold at, in the unknowns of the mesh, in natural
-  /// modes too.
-  void exchange(Snapshot& snapshot, State& y);
-  /// Goes on from a state that exchange() has read.
-  void resume(const State& y) { start_ = y; }
-  /// Another strike on the beam in the state that exchange() has read, with the striker's nose on
-  /// the dent. `at_rest`: in its residual shape, a free beam with zero mean displacement and
-  /// rotation; `first_frequency` (rad/s, roughly): of the beam. What was dissipated before does not
-  /// count. Throws std::domain_error where nothing is struck, or a beam at rest would yield.
-  void begin_strike(State y, bool at_rest, double first_frequency);
+  /// The accepted state y with the histories that hold at it, for another strike.
+  std::shared_ptr<const EndState> end_state(const State& y) const;
+  /// Another strike on the beam as an earlier one of the same mesh and laws has left it, with the
+  /// striker's nose on the dent. `at_rest`: in its residual shape, a free beam with zero mean
+  /// displacement and rotation; `first_frequency` (rad/s, roughly): of the beam. What was
+  /// dissipated before does not count. Throws std::invalid_argument for the end of a beam of
+  /// another size, std::domain_error where nothing is struck, or a beam at rest would yield.
+  void begin_strike(const EndState& end, bool at_rest, double first_frequency);
   /// Energy dissipated before the present strike: parts of Energies.
   struct Spent {
     double bending = 0.0, contact = 0.0;  ///< J

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "numerics/snapshot.h"
 #include "subimpact/model/scene.h"
 #include "subimpact/numerics/banded_matrix.h"
 
@@ -39,8 +38,6 @@ class Tension {
   Energies energies(std::span<const double> unknowns) const;
 
   void commit(std::span<const double> unknowns);
-  /// What commit() has advanced.
-  void exchange(Snapshot& snapshot) { snapshot(plastic_, work_); }
 
  private:
   // To q^T G q: N, the change of e_p (m) and its work (J).

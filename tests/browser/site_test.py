@@ -54,7 +54,6 @@ WORDS = {
     "near miss": ["docs/glossary", "docs/files", "docs/theory/events"],
     "graze": ["docs/glossary", "validation/truth/grazes"],
     "convergence": ["docs/theory/meshes", "docs/theory/errors", "validation/truth/mesh"],
-    "continue": ["docs/results"],
     "cluster": ["docs/populations"],
     "C++": ["docs/library", "reference/cpp"],
     "observer": ["docs/recipes", "reference/cpp/simulate"],

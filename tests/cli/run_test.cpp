@@ -425,5 +425,21 @@ TEST(AListing, WhoseReaderHasEndedEndsAsOtherProgramsDo) {
   EXPECT_EQ(status_with_reader_gone("'" SUBIMPACT_PROGRAM "' keys", directory.path), 128 + SIGPIPE);
 }
 
+TEST(RepeatedStrikes, OfTheProgramHaveARowEachInATableAndOnTheScreen) {
+  const TemporaryDirectory here;
+  expect_in(run_in(here, paper("run",
+                               {"time.end=1 ms", "model.segments=201", "repeat.strikes=3",
+                                "beam.ends=pinned,pinned"},
+                               {"--out", "here"}))
+                .output,
+            "strike sub-impacts");
+  const Result result = read_results(here.path / "here").result;
+  ASSERT_EQ(result.strikes.size(), 3U);
+  EXPECT_EQ(result.strikes.back().sub_impacts, result.sub_impacts.size());
+  EXPECT_EQ(result.strikes.back().dent, result.sub_impacts.back().residual_indentation);
+  expect_in(run_in(here, paper("compare", {"repeat.strikes=3"}, {"--methods", "erk"}), 2).errors,
+            "only `subimpact run` strikes more than once");
+}
+
 }  // namespace
 }  // namespace subimpact

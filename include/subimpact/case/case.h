@@ -13,9 +13,10 @@
 #include "subimpact/model/scene.h"
 #include "subimpact/model/section/fibres.h"
 #include "subimpact/simulate/options.h"
-#include "subimpact/simulate/run_state.h"
 
 namespace subimpact {
+
+struct EndState;
 
 enum class SectionKind {
   elastic,  ///< never yields
@@ -68,8 +69,7 @@ struct CaseParts {
   std::shared_ptr<const ContactLaw> contact_law;
   /// Empty: the section of model.section; otherwise that key only decides whether it may yield.
   std::optional<Fibres> section;
-  /// Problem::start: Result::end_state of an earlier run.
-  std::shared_ptr<const RunState> start;
+  std::shared_ptr<const EndState> start;  ///< Problem::start
 };
 
 /// A case: the options of its run, and what they apply to.
@@ -84,9 +84,9 @@ struct Case : Options {
   /// Relative standard deviations of numbers of the scene, by key: "striker.velocity". They do not
   /// change the run; see study/predictability.h.
   std::map<std::string, double> scatter;
-  std::optional<bool> at_rest;  ///< Problem::at_rest
-  int strikes = 1;              ///< that the beam receives (study/run_as_asked.h)
-  CaseParts parts;              ///< none: the built-in ones
+  bool at_rest = true;  ///< Problem::at_rest
+  int strikes = 1;      ///< that the beam receives (study/run_as_asked.h)
+  CaseParts parts;      ///< none: the built-in ones
 };
 
 }  // namespace subimpact

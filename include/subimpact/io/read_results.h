@@ -27,14 +27,6 @@ struct FinishedRun {
 /// that all are of one run and unchanged. Throws ResultsError.
 FinishedRun read_results(const std::filesystem::path& directory);
 
-class LoadedCase;
-
-/// Makes a case continue the finished run in a directory, and returns that run with
-/// Result::end_state: sets CaseParts::start, and takes over the keys of [model] or [solver] if the
-/// case gives no key of that table. Throws ResultsError for files without a state, CaseFileError
-/// with all keys that differ but must not.
-FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& loaded);
-
 /// The tables of a population of runs, as `subimpact-sweep` writes them.
 struct SweptRuns {
   /// A column of runs.csv with one value per run: numbers, NaN where a cell is empty; or words, if

@@ -13,11 +13,12 @@
 #include "subimpact/simulate/assessment.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/records.h"
-#include "subimpact/simulate/run_state.h"
 #include "subimpact/system/energies.h"
 #include "subimpact/system/plastic_zone.h"
 
 namespace subimpact {
+
+struct EndState;
 
 /// One row of history.csv; the members are its columns, in SI units.
 struct HistoryRow {
@@ -311,8 +312,8 @@ struct Result : Assessment {
   double beam_damping_loss = 0.0;            ///< J, by that of the beam
   /// Largest difference between the impulse and the integrated force of a sub-impact, over m v0.
   double max_impulse_error = 0.0;
-  /// State of the run at its end, for runs that continue it; null for a failed run.
-  std::shared_ptr<const RunState> end_state;
+  /// The beam at the end of the run, for another strike on it; null for a failed run.
+  std::shared_ptr<const EndState> end_state;
   /// Warnings about results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
   std::vector<NextStep> next_steps;  ///< of `subimpact run` alone

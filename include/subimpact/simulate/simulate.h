@@ -31,15 +31,12 @@ struct Problem {
   std::optional<Fibres> section;  ///< empty: the solid rectangle
   bool may_yield = true;          ///< whether sections yield, at the yield stress of the beam
   bool check_contact_law = true;  ///< whether a run begins with broken_rule(*contact_law)
-  /// The end of an earlier run of the same beam, mesh and laws. Null: the beam is straight, at rest
-  /// and has never yielded.
-  std::shared_ptr<const RunState> start;
-  /// How the run continues from `start`. Empty: with the same striker the strike continues, and the
-  /// results are those of the whole strike; with another striker a new strike begins, at t = 0, on
-  /// the moving beam. false: a new strike begins with any striker. true: a new strike begins, after
-  /// the beam has come to rest in its residual shape. A new striker's nose lies on the dent; its
-  /// velocity must exceed that of the struck point.
-  std::optional<bool> at_rest;
+  /// Result::end_state of an earlier strike on the same beam, mesh and laws, which this one finds.
+  /// Null: the beam is straight, at rest and has never yielded.
+  std::shared_ptr<const EndState> start;
+  /// Whether the beam of `start` has come to rest in its residual shape, or moves as it was left.
+  /// The striker's nose lies on the dent; its velocity must exceed that of the struck point.
+  bool at_rest = true;
 
   Bodies bodies() const { return {beam, striker, gravity}; }
 };

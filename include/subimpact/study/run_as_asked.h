@@ -37,11 +37,10 @@ std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& give
 /// Runs a case as `subimpact run` does, with error estimates and errors of the model, unless
 /// error bars are off or `model_errors` is false; simulate(Case) is one run on the mesh of the
 /// case. `given`: the keys that the caller has chosen; the program chooses mesh and method if no
-/// such key is among them. Throws InvalidCase. A run from an earlier state (CaseParts::start) has
-/// the errors of the whole: the runs beside the earlier run are continued too. Without them no
-/// errors are stated. With repeat.strikes = N the beam is struck N times, on the mesh of the first
-/// strike, and comes to rest before each strike unless strike.rest is false. The result is that of
-/// the last strike, with a row of each in Result::strikes.
+/// such key is among them. Throws InvalidCase. With repeat.strikes = N the beam is struck N times,
+/// on the mesh of the first strike, as are those of the runs that show the errors, and comes to
+/// rest before each strike unless strike.rest is false. The result is that of the last strike, with
+/// a row of each in Result::strikes.
 WithinRun run_as_asked(const Case& input, const GivenKeys& given = {}, RunRequest request = {});
 
 /// The first of the runs that run_as_asked() makes of a case, by default; without a reason where

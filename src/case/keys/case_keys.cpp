@@ -378,7 +378,7 @@ std::vector<CaseKey> make_case_keys() {
     row("model.layers", "", layer_range, "number of layers over the thickness, with section = \"layers\"", as_in_case, AT(model.layers)),
     row("model.symmetry", "", any_value, "use of the scene's symmetry about mid-span", as_in_case, AT(model.symmetry)),
 
-    row("strike.rest", "", any_value, "state of a beam that was struck before: true: at rest in its residual shape; false: as it moves", "with --continue and the same striker the strike goes on; else false, with repeat.strikes true", AT(at_rest)),
+    row("strike.rest", "", any_value, "state of the beam before each strike but the first: true: at rest in its residual shape; false: as it moves", as_in_case, AT(at_rest)),
     row("repeat.strikes", "", between("from 1 to 100000", 1, 100000), "number of equal strikes that the beam receives, one after another", as_in_case, AT(strikes)),
 
     row("time.end", "s", positive, "time at which the simulation ends", required, AT(end_time)),

@@ -38,8 +38,4 @@ std::vector<NamedScalar> scalars_of(const FinishedRun& run);
 /// numbers that no run can have written.
 void read_summary(const std::filesystem::path& path, const std::string& text, FinishedRun& run);
 
-inline constexpr const char* state_name = "state.json";
-/// The state at the end of a run, from which another can go on (continue_from).
-std::string state_json(const RunState& state);
-
 }  // namespace subimpact

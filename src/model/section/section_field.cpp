@@ -142,28 +142,6 @@ void SectionField::follow_history(std::size_t section) {
   offset_[section] = window.offset;
 }
 
-void SectionField::exchange(Snapshot& snapshot) {
-  std::vector<std::size_t> yielded, flowing;
-  for (std::size_t i = 0; i < slot_.size(); ++i) {
-    if (has_yielded(i)) yielded.push_back(i);
-  }
-  for (const Flow& flow : flowing_) flowing.push_back(flow.section);
-  snapshot(yielded, flowing);
-  for (const auto* sections : {&yielded, &flowing}) {
-    snapshot.require(std::ranges::all_of(*sections, [&](auto i) { return i < slot_.size(); }));
-  }
-  n_yielded_ = yielded.size();
-  for (const std::size_t section : yielded) {
-    snapshot(stored_history(section));
-    if (snapshot.reads()) follow_history(section);
-  }
-  if (!snapshot.reads()) return;
-  flowing_.clear();
-  for (const std::size_t section : flowing) {
-    flowing_.push_back({section, law_->branch_from_edge(history(section))});
-  }
-}
-
 template <class Visit>
 void SectionField::for_each_outside(std::span<const double> curvatures, Visit visit) const {
   const double* k = curvatures.data();

@@ -55,8 +55,6 @@ class SectionField {
   std::size_t commit(const std::vector<Outside>& outside);
   /// Commits the curvature at which one section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature);
-  /// The histories of all sections.
-  void exchange(Snapshot& snapshot);
   /// No section flows from now until the next commit.
   void stop_flow() { flowing_.clear(); }
 

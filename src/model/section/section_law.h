@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "numerics/snapshot.h"
 #include "subimpact/model/scene.h"
 #include "subimpact/model/section/fibres.h"
 
@@ -13,7 +12,6 @@ namespace subimpact {
 struct SectionHistory {
   struct Point {
     double x, m;
-    void exchange(Snapshot& snapshot) { snapshot(x, m); }
   };
   std::vector<Point>
       reversals;         ///< reversal points still in force, alternating, ever closer together
@@ -21,8 +19,6 @@ struct SectionHistory {
   int direction = 0;     ///< sense of the last flow, +1 or -1; 0: has never yielded
   double work = 0.0;     ///< integral of m dx up to the edge
   double work_of_branch = 0.0;  ///< that part which was done on the branch of the edge
-
-  void exchange(Snapshot& snapshot) { snapshot(reversals, edge, direction, work, work_of_branch); }
 };
 
 /// Energies of bending, J, or J/m of a section.

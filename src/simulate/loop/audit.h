@@ -41,11 +41,6 @@ class Audit {
   /// Judges the accepted state y at time t (s).
   void check(double t, const State& y) { check(t, y, accounts_.energies(y, t)); }
   void check(double t, const State& y, const Energies& energies);
-  /// The accounts of a run that goes on.
-  void exchange(Snapshot& snapshot) {
-    snapshot(initial_energy_, initial_momentum_, energy_scale_, momentum_scale_, last_good_,
-             max_energy_error_, max_momentum_error_, max_impulse_error_);
-  }
   /// A cheap look at the struck point, for every step: throws if its indentation (m) or rate (m/s)
   /// is not finite; returns whether the striker's speed is suspicious enough for a full check.
   bool is_suspicious(double t, const State& y, double indentation, double rate) const;

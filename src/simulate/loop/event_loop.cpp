@@ -56,11 +56,7 @@ void EventLoop::start() {
 
 void EventLoop::start_from(const State& y) {
   beam_.commit(y);
-  resume(options_.first_touch, y);
-}
-
-void EventLoop::resume(double time, const State& y) {
-  time_ = time;
+  time_ = options_.first_touch;
   end_state_ = y;
   state_ = &end_state_;  // where the run stands if the integrator cannot even begin
   integrator_.restart(time_, y);

@@ -66,8 +66,6 @@ class EventLoop {
 
   /// Puts the beam at the first touch, with the contact just begun, or at t = 0 apart.
   void start();
-  /// Goes on from the state that a run ended in, with contact and sections as they are.
-  void resume(double time, const State& y);
   /// start() in another state, with the contact as it is (see ContactState::set).
   void start_from(const State& y);
   /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure

@@ -60,21 +60,6 @@ double FieldRecorder::next_instant() const {
   return std::min(shapes_.next(), regular_.next());
 }
 
-void FieldRecorder::resume(double time, const std::vector<EnvelopeRow>& envelope) {
-  last_shape_time_ = last_followed_time_ = time;
-  if (!has_shapes()) return;
-  shapes_.resume(time);
-  regular_.resume(time);
-  if (envelope.size() == envelope_.size()) {
-    envelope_ = envelope;
-  } else {
-    result_.warnings.push_back(fmt::format(
-        "extremes along the beam are those after {:.6g} us: the run before kept none at "
-        "these points",
-        us * time));
-  }
-}
-
 void FieldRecorder::take_instant(double time, const State& y, Accounts& accounts) {
   const bool shape = shapes_.reach(time);
   const bool regular = regular_.reach(time);

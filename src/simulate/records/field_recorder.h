@@ -34,11 +34,6 @@ class Instants {
     ++passed_;
     return true;
   }
-  /// Goes on behind a time.
-  void resume(double time) {
-    if (!exist()) return;
-    passed_ = static_cast<long>(std::floor(time / interval_ * (1.0 + same_instant))) + 1;
-  }
   /// Adds those from the next one on, below `end`.
   void add_below(double end, std::vector<double>& times) const {
     for (Instants i = *this; i.next() < end; ++i.passed_) times.push_back(i.next());
@@ -79,13 +74,6 @@ class FieldRecorder {
   /// At the end: the envelope and, if the state `is_good`, the last shape and the permanent
   /// bending.
   void finish(double time, const State& y, Accounts& accounts, bool is_good);
-  /// The envelope at the stations, so far.
-  const std::vector<EnvelopeRow>& envelope() {
-    take_waiting();
-    return envelope_;
-  }
-  /// Goes on from the time (s) and envelope that another recorder had reached.
-  void resume(double time, const std::vector<EnvelopeRow>& envelope);
 
  private:
   bool has_shapes() const { return field_.size() > 0 && shapes_.exist(); }

@@ -57,9 +57,6 @@ class Recorder final : public RunObserver {
   /// Closes the accounts at the last state, which `is_good` if every check passed.
   void finish(double time, const State& y, const StruckBeam& beam, bool is_good);
 
-  /// The records so far, without rows, of a run that has reached `time` (s).
-  void exchange(Snapshot& snapshot, double time);
-
   const std::vector<long>& steps_in_contact() const { return steps_in_contact_; }
 
  private:

@@ -158,7 +158,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
     used.velocity_tolerance = options.solver.rtol * scales.velocity;
   }
   used.energy_tolerance = energy_tolerance(options, used);
-  check_continuation(problem, options, used);
+  check_next_strike(problem);
   used.shape_interval = shape_interval(options, beam.mesh());
   if (used.shape_interval > 0.0) {
     const auto most = static_cast<std::size_t>(options.output.shape_points);

@@ -94,18 +94,6 @@ std::optional<CaseBeside> on_finer_cells(const Case& input) {
   return central_differences_suit(by_differences) ? on_mesh_of(2.0, by_differences) : std::nullopt;
 }
 
-// Adds the end states of the runs beside to that of the run, if all have one.
-void keep_states(const std::vector<CaseBeside>& cases,
-                 const std::vector<std::optional<Result>>& others, Result& run) {
-  if (!run.end_state) return;
-  auto state = std::make_shared<RunState>(*run.end_state);
-  for (std::size_t k = 0; k < cases.size(); ++k) {
-    if (!others[k] || !others[k]->end_state) return;
-    state->beside.emplace_back(cases[k].description, others[k]->end_state);
-  }
-  run.end_state = std::move(state);
-}
-
 }  // namespace
 
 std::vector<CaseBeside> cases_beside_in_time(const Case& input) {
@@ -194,7 +182,6 @@ std::vector<RunBeside> simulate_beside(const Case& input, const std::vector<Case
       lacks_memory = true;
     }
   });
-  keep_states(cases, others, run);
   if (stop) return {};
   if (lacks_memory) {
     run.warnings.push_back(

@@ -81,11 +81,7 @@ double largest_time_error(const SubImpact& s) {
   return std::max(s.start_error.value_or(HUGE_VAL), s.end ? s.end_error.value_or(HUGE_VAL) : 0.0);
 }
 
-struct Level {
-  Case input;
-  Result result;
-  std::vector<RunBeside> beside;
-};
+using Level = WithinRun;
 
 class Search {
  public:
@@ -115,7 +111,7 @@ class Search {
       next = finer_case();
     }
     if (!has_rows_) run_again();
-    WithinRun found{std::move(best_->input), std::move(best_->result)};
+    WithinRun found = std::move(*best_);
     describe(found);
     return found;
   }
@@ -163,20 +159,15 @@ class Search {
     Result again;
     options_.make(best_->input, {}, rows_if(true), again, best_->beside);
     if (again.outcome.kind == OutcomeKind::stopped) return;
-    if (again.end_state && best_->result.end_state) {
-      auto end = std::make_shared<RunState>(*again.end_state);
-      end->beside = best_->result.end_state->beside;
-      again.end_state = std::move(end);
-    }
     best_->result = std::move(again);
     if (options_.finished) options_.finished(best_->input, best_->result);
   }
 
   // The result after an interruption: the last level that ended, else the current one.
   WithinRun ended_early(Level level) {
-    if (!best_) return {level.input, std::move(level.result)};
+    if (!best_) return level;
     obstacle_ = {Reason::Kind::stopped_search};
-    WithinRun found{std::move(best_->input), std::move(best_->result)};
+    WithinRun found = std::move(*best_);
     describe(found);
     found.result.outcome = {OutcomeKind::stopped,
                             found.result.outcome.time,

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "numerics/bracketed_root.h"
-#include "numerics/snapshot.h"
 #include "subimpact/model/contact/contact_law.h"
 #include "subimpact/system/events.h"
 
@@ -90,10 +89,6 @@ class ContactState {
   void set(ContactBranch branch, ContactHistory history) {
     branch_ = branch;
     history_ = history;
-  }
-  void exchange(Snapshot& snapshot) {
-    snapshot(recovering_, branch_, history_.max_indentation);
-    snapshot.require(branch_ <= ContactBranch::plastic);
   }
   void commit(double indentation);
   void pass(const EventFunction& event, double indentation);

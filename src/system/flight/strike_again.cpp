@@ -23,35 +23,29 @@ constexpr int n_refinements = 3;
 
 }  // namespace
 
-void StruckBeam::exchange(Snapshot& snapshot, State& y) {
-  const auto* modes = dynamic_cast<const ModalMesh*>(mesh_.get());
-  snapshot.begin("motion");
-  State of_mesh = y;
-  const auto half = [&](State& state, std::size_t k) {
-    return std::span(state).subspan(k * (n_ + 1), n_);
-  };
-  if (modes != nullptr && !snapshot.reads()) {
-    for (const std::size_t k : {0, 1}) modes->to_physical(half(y, k), half(of_mesh, k));
+std::shared_ptr<const EndState> StruckBeam::end_state(const State& y) const {
+  EndState end{y, contact_.history(), sections_, tension_};
+  if (const auto* modes = dynamic_cast<const ModalMesh*>(mesh_.get())) {
+    for (const std::size_t first : {std::size_t{0}, n_ + 1}) {
+      modes->to_physical(std::span(y).subspan(first, n_), std::span(end.motion).subspan(first, n_));
+    }
   }
-  snapshot(of_mesh);
-  snapshot.require(of_mesh.size() == 2 * n_positions());
-  if (snapshot.reads()) y = of_mesh;
-  if (modes != nullptr && snapshot.reads()) {
-    for (const std::size_t k : {0, 1}) modes->to_modal(half(of_mesh, k), half(y, k));
-  }
-  snapshot.begin("contact");
-  snapshot(contact_);
-  snapshot.begin("losses");
-  snapshot(losses_.contact, losses_.beam, losses_.of_change, spent_.bending, spent_.contact,
-           potential_before_, loads_);
-  snapshot.begin("sections");
-  snapshot(sections_);
-  if (tension_) snapshot(*tension_);
-  if (snapshot.reads()) read_motion(y, committed_);
+  return std::make_shared<const EndState>(std::move(end));
 }
 
-void StruckBeam::begin_strike(State y, bool at_rest, double first_frequency) {
-  contact_.set(ContactBranch::separated, contact_.history());
+void StruckBeam::begin_strike(const EndState& end, bool at_rest, double first_frequency) {
+  if (end.motion.size() != 2 * n_positions() || end.sections.size() != sections_.size()) {
+    throw std::invalid_argument("is not that of the strike before");
+  }
+  State y = end.motion;
+  if (const auto* modes = dynamic_cast<const ModalMesh*>(mesh_.get())) {
+    for (const std::size_t first : {std::size_t{0}, n_ + 1}) {
+      modes->to_modal(std::span(end.motion).subspan(first, n_), std::span(y).subspan(first, n_));
+    }
+  }
+  sections_ = end.sections;
+  tension_ = end.tension;
+  contact_.set(ContactBranch::separated, end.contact);
   if (at_rest) {
     std::ranges::fill(y, 0.0);
     come_to_rest(std::span(y).first(n_), first_frequency);

@@ -65,6 +65,7 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open);
 struct WithinRun {
   Case input;  ///< simulate_judged() with cases_beside(input) repeats the run, bit for bit
   Result result;
+  std::vector<RunBeside> beside;  ///< those that judge it
 };
 
 /// Runs a case on finer and finer meshes, each together with the cases that judge it, until all
