@@ -186,7 +186,6 @@ bool write_after_printing(OutputDirectory& directory,
     print_error("subimpact: {}\n", error.what());
     return false;
   }
-  print_warnings(directory.notes());
   return true;
 }
 

@@ -79,7 +79,6 @@ int write_page(OutputDirectory& directory, const char* file, const std::string& 
   write_file(directory.staging() / file, page);
   directory.commit();
   print("{}\n", (directory.path() / file).string());
-  print_warnings(directory.notes());
   return done;
 }
 

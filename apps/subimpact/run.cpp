@@ -183,10 +183,11 @@ int run(RunOptions& options) {
   const Result& result = finished.result;
   // Before anything is printed: the reader of a pipe may leave early and end the program.
   const std::string unwritten = write(files, input, result);
+  const bool all_rows = options.all || !unwritten.empty();
   if (!options.quiet || !unwritten.empty()) {
     print("{}\n{}", run_summary(input, result, options.verbose),
-          sub_impact_table(result, !options.all));
-    if (!result.strikes.empty()) print("\n{}", strike_table(result, options.all));
+          sub_impact_table(result, !all_rows));
+    if (!result.strikes.empty()) print("\n{}", strike_table(result, all_rows));
     if (result.predictability) print("\n{}", scatter_table(result));
     print("\n{}",
           next_lines(result.next_steps,
@@ -194,7 +195,6 @@ int run(RunOptions& options) {
     if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
   }
-  print_warnings(files.directory().notes());
   std::vector<std::string> warnings = result.warnings;
   std::erase_if(warnings, [&](const std::string& warning) {
     return std::ranges::find(doubts, warning) != doubts.end();
@@ -205,7 +205,7 @@ int run(RunOptions& options) {
     print_error("subimpact: {}\n", failure_message(input, result));
   }
   if (!unwritten.empty()) print_error("subimpact: {}\n", unwritten);
-  if (!unwritten.empty() || files.directory().is_relocated()) return failed;
+  if (!unwritten.empty()) return failed;
   const bool lacks_scatter = !result.predictability && !scattering_keys(input).empty();
   const bool is_cut_short =
       result.outcome.kind == OutcomeKind::stopped || (lacks_scatter && listener.interrupted());
@@ -258,9 +258,8 @@ void add_run(CLI::App& program, int& status) {
       "validity; 3 a check or the solver failed, or results could not be written to DIR; 128 and "
       "the signal's number: stopped (130 by Ctrl-C). Once the run has begun, what was computed is "
       "written in every case: also after Ctrl-C, SIGTERM or SIGHUP; if DIR cannot be written any "
-      "more (a full disk), to a new directory for temporary files; if that fails too, the table is "
-      "printed. Only kill -9 and a second Ctrl-C leave nothing new; DIR then holds the older "
-      "results.");
+      "more (a full disk), every sub-impact is printed. Only kill -9 and a second Ctrl-C leave "
+      "nothing new; DIR then holds the older results.");
 }
 
 }  // namespace subimpact::app

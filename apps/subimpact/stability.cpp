@@ -108,7 +108,6 @@ int run_stability(StabilityCommand& command) {
         return failed;
       }
     }
-    print_warnings(directory.notes());
     print("CSV files in {0}; subimpact plot {0} draws them\n", command.directory);
     if (!session.listener.interrupted()) return all_done ? done : failed;
     return session.end_interrupted("; the parts that were finished are in " + command.directory);

@@ -78,7 +78,6 @@ int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCas
     std::fflush(stdout);
     if (studies.back().interrupted) break;
   }
-  print_warnings(directory.notes());
   print("work_precision.csv in {0}; subimpact plot {0} draws it\n", command.directory);
   if (!studies.back().interrupted) return done;
   return session.end_interrupted(

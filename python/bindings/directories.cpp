@@ -6,7 +6,6 @@
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "bindings.h"
 #include "subimpact/io/output_directory.h"
@@ -39,7 +38,6 @@ class Directory {
   Directory& operator=(const Directory&) = delete;
 
   void close() {
-    if (directory_) notes_ = directory_->notes();
     if (getpid() == owner_) {
       directory_.reset();
     } else {
@@ -50,14 +48,10 @@ class Directory {
     if (!directory_) throw OutputError("this directory of results is closed");
     return *directory_;
   }
-  const std::vector<std::string>& notes() const {
-    return directory_ ? directory_->notes() : notes_;
-  }
 
  private:
   pid_t owner_;
   std::unique_ptr<OutputDirectory> directory_;
-  std::vector<std::string> notes_;
 };
 
 }  // namespace
@@ -70,7 +64,6 @@ void bind_directories(py::module_& module) {
       .def_property_readonly("path", [](const Directory& d) { return d.open().path().string(); })
       .def_property_readonly("staging",
                              [](const Directory& d) { return d.open().staging().string(); })
-      .def_property_readonly("notes", &Directory::notes)
       .def(
           "commit", [](const Directory& d) { d.open().commit(); },
           py::call_guard<py::gil_scoped_release>())

@@ -161,8 +161,7 @@ FinishedRun read_results(const fs::path& directory) {
         "{}: is not a directory; give the output directory of `subimpact run` (--out)",
         directory.string());
   }
-  return read_listed(directory,
-                     [&](const ListedFiles& files) { return read_once(directory, files); });
+  return read_once(directory, ListedFiles(directory));
 }
 
 const SweptRuns::Column* SweptRuns::find(std::string_view name) const {
@@ -177,12 +176,11 @@ bool holds_sweep(const fs::path& directory) {
 }
 
 SweptRuns read_sweep(const fs::path& directory) {
-  return read_listed(directory, [&](const ListedFiles& files) {
-    SweptRuns runs = read_runs(files, directory / runs_name);
-    read_sub_impacts(files, directory / sub_impacts_name, runs);
-    if (files.are_listed()) runs.identity = files.manifest()->identity;
-    return runs;
-  });
+  const ListedFiles files(directory);
+  SweptRuns runs = read_runs(files, directory / runs_name);
+  read_sub_impacts(files, directory / sub_impacts_name, runs);
+  if (files.are_listed()) runs.identity = files.manifest()->identity;
+  return runs;
 }
 
 }  // namespace subimpact

@@ -17,8 +17,7 @@ namespace subimpact {
 
 namespace fs = std::filesystem;
 
-/// A table that grows row by row. Rows are collected and written together; what did not fit on the
-/// disk is written again elsewhere.
+/// A table that grows row by row. Rows are collected and written together.
 class ResultWriter::RowFile {
  public:
   template <class Row>
@@ -37,36 +36,22 @@ class ResultWriter::RowFile {
   }
   bool is_full() const { return pending_.size() > most_pending; }
 
-  /// Writes the rows collected. Throws OutputError; the file then holds the rows of earlier calls.
+  /// Writes the rows collected. Throws OutputError.
   void write_to(const OutputDirectory& directory) {
-    if (file_ < 0) {
-      const fs::path path = directory.staging() / name_;
-      file_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
-      // A copy of a file that was cut short has part of a row at its end.
-      check(directory, file_ < 0 || ftruncate(file_, n_written_) != 0 ? errno : 0);
+    const fs::path path = directory.staging() / name_;
+    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC;
+    if (file_ < 0) file_ = open(path.c_str(), flags, 0666);
+    if (const int cause = file_ < 0 ? errno : write_all(file_, pending_); cause != 0) {
+      fail<OutputError>("{}: cannot be written ({})", directory.path().string(),
+                        std::strerror(cause));
     }
-    check(directory, write_all(file_, pending_));
-    n_written_ += static_cast<off_t>(pending_.size());
     pending_.clear();
   }
 
-  /// Discards all rows; the file is opened again and cut short.
+  /// Discards all rows.
   void restart() {
     leave_directory();
     pending_ = heading_;
-    n_written_ = 0;
-  }
-
-  /// Goes on in another directory. The rows so far are taken from the open file if no copy is
-  /// there: somebody may have removed or renamed the directory. Throws OutputError.
-  void move_to(const OutputDirectory& directory) {
-    const fs::path path = directory.staging() / name_;
-    std::error_code error;
-    if (n_written_ > 0 && !fs::exists(path)) {
-      fs::copy_file(fmt::format("/proc/self/fd/{}", file_), path, error);
-    }
-    leave_directory();
-    check(directory, error.value());
   }
 
  private:
@@ -76,20 +61,12 @@ class ResultWriter::RowFile {
     if (file_ >= 0) close(file_);
     file_ = -1;
   }
-  // `cause`: 0, or an error's number.
-  static void check(const OutputDirectory& directory, int cause) {
-    if (cause == 0) return;
-    fail<OutputError>("{}: cannot be written ({})", directory.path().string(),
-                      std::strerror(cause));
-  }
-
   std::string name_;
   std::any columns_;  // Columns of its rows
   std::string heading_;
   std::string pending_;
   NumberWriter numbers_;
   int file_ = -1;
-  off_t n_written_ = 0;
 };
 
 namespace {
@@ -110,13 +87,11 @@ bool may_write_case(const fs::path& directory) {
 }
 
 // Figures of an older run in their folder; left where another command writes there.
-void remove_old_figures(OutputDirectory& of_run) {
-  const fs::path& directory = of_run.path();
+void remove_old_figures(const fs::path& directory) {
   if (!fs::exists(directory / "figures" / manifest_name)) return;
   try {
     OutputDirectory old(directory / "figures", "figures", read_manifest(directory)->identity);
     old.commit();
-    of_run.add_notes(old.notes());
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch)
   }
 }
@@ -192,42 +167,27 @@ void ResultWriter::restart() {
 void ResultWriter::flush(RowFile& rows) {
   if (!lost_.empty()) return;
   try {
-    write_or_relocate([&] { rows.write_to(directory_); });
+    rows.write_to(directory_);
   } catch (const OutputError& error) {  // the run goes on: its events can still be printed
     lost_ = error.what();
   }
 }
 
-template <class Write>
-void ResultWriter::write_or_relocate(Write write) {
-  for (;;) {
-    try {
-      write();
-      return;
-    } catch (const OutputError& error) {
-      directory_.relocate(error.what());  // throws the second time
-      for_each_file([this](RowFile& file) { file.move_to(directory_); });
-    }
-  }
-}
-
 void ResultWriter::finish(const Case& input, const Result& result) {
   if (!lost_.empty()) throw OutputError(lost_);
-  write_or_relocate([&] {
-    const fs::path& place = directory_.staging();
-    for_each_file([this](RowFile& file) { file.write_to(directory_); });
-    const auto write_table = [&]<class Row>(const RunTable<Row>& table) {
-      write_file(place / table.file, csv_of<Row>(result));
-    };
-    if (input.strikes > 1) write_table(run_table<StrikeRow>());
-    if (!result.envelope.empty()) write_table(run_table<EnvelopeRow>());
-    write_table(run_table<SubImpact>());
-    write_table(run_table<Transition>());
-    write_file(place / "summary.json", summary_json(input, result));
-    if (may_write_case(directory_.path())) write_file(place / case_name, case_file_text(input));
-    directory_.commit();
-  });
-  remove_old_figures(directory_);
+  const fs::path& place = directory_.staging();
+  for_each_file([this](RowFile& file) { file.write_to(directory_); });
+  const auto write_table = [&]<class Row>(const RunTable<Row>& table) {
+    write_file(place / table.file, csv_of<Row>(result));
+  };
+  if (input.strikes > 1) write_table(run_table<StrikeRow>());
+  if (!result.envelope.empty()) write_table(run_table<EnvelopeRow>());
+  write_table(run_table<SubImpact>());
+  write_table(run_table<Transition>());
+  write_file(place / "summary.json", summary_json(input, result));
+  if (may_write_case(directory_.path())) write_file(place / case_name, case_file_text(input));
+  directory_.commit();
+  remove_old_figures(directory_.path());
 }
 
 void write_results(const fs::path& directory, const Case& input, const Result& result) {

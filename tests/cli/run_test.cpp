@@ -144,14 +144,13 @@ TEST_F(ARun, ThatLeavesTheModelsValidityEndsWithStatus2AndKeepsItsFiles) {
             "check the unit: beam.youngs_modulus is 71960 Pa");
 }
 
-TEST_F(ARun, WhoseResultsCanBeWrittenNowherePrintsThemAndLeavesTheOlderOnes) {
+TEST_F(ARun, WhoseResultsCannotBeWrittenPrintsThemAndLeavesTheOlderOnes) {
   run_here(directory);
   const std::string before = directory.read("here/manifest.json");
   const Finished finished =
       run_program(short_run({"--out", "here", "--quiet"}), directory.path, 0, SIGINT, 700);
   EXPECT_EQ(finished.status, 3);
-  expect_in(finished.errors, "cannot be written (File too large)",
-            "nor can the results be written to a directory for temporary files");
+  expect_in(finished.errors, "cannot be written (File too large)");
   expect_in(unwrapped(finished.output), "zone 1");
   EXPECT_EQ(directory.read("here/manifest.json"), before);
   EXPECT_NO_THROW(read_results(directory.path / "here"));

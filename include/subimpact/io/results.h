@@ -49,8 +49,8 @@ class ResultWriter final : public RowSink {
   /// Discards the rows so far: another run begins.
   void restart();
 
-  /// Writes the other files and puts all in place. If the directory can no longer be written (a
-  /// full disk), all goes to a new directory for temporary files. Throws OutputError if that fails.
+  /// Writes the other files and puts all in place. Throws OutputError, also if rows could not be
+  /// written before (a full disk); the older files are then unchanged.
   void finish(const Case& input, const Result& result);
 
   const OutputDirectory& directory() const { return directory_; }
@@ -60,15 +60,13 @@ class ResultWriter final : public RowSink {
   template <class Row>
   void add_to(RowFile& file, const Row& row);
   void flush(RowFile& rows);
-  template <class Write>
-  void write_or_relocate(Write write);
 
   OutputDirectory directory_;
   template <class Use>
   void for_each_file(Use use);
 
   std::unique_ptr<RowFile> history_, sections_, points_, shapes_;  // none: no such rows
-  std::string lost_;  // why rows could not be written anywhere
+  std::string lost_;                                               // why rows could not be written
 };
 
 /// JSON has no infinity and no NaN: an infinite setting is written as the text "inf", a result that

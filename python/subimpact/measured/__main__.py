@@ -81,8 +81,8 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _write(run: str, directory: str, alignment: Alignment) -> list[str]:
-    """Writes what the page shows, and returns what there is to say. Raises OutputError."""
+def _write(run: str, directory: str, alignment: Alignment) -> None:
+    """Writes what the page shows. Raises OutputError."""
     page = {"quantity": alignment.quantity, "answers": alignment.answers(), "doubt": alignment.doubt,
             "caption": " ".join((draw_all.__doc__ or "").split()),
             "overlay": [packed(side.times, side.forces) for side in (alignment.measured, alignment.computed)]}
@@ -90,7 +90,6 @@ def _write(run: str, directory: str, alignment: Alignment) -> list[str]:
         save(draw_all(alignment), Path(output.staging) / "measured", ("svg",))
         (Path(output.staging) / "measured.json").write_text(json.dumps(page) + "\n", encoding="utf-8")
         output.commit()
-        return output.notes
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -108,12 +107,12 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"  {answer['name']:<18}  {answer['value']}\n{'':22}{answer['note']}")
     sys.stdout.flush()
     try:
-        notes = _write(run, out or os.path.join(run, "figures"), alignment)
+        _write(run, out or os.path.join(run, "figures"), alignment)
     except OSError as error:  # OutputError is one
         print(printable(str(error)), file=sys.stderr)
         return 3
-    for note in [*([alignment.doubt] if alignment.doubt else []), *notes]:
-        print(f"subimpact: warning: {printable(note)}", file=sys.stderr)
+    if alignment.doubt:
+        print(f"subimpact: warning: {printable(alignment.doubt)}", file=sys.stderr)
     return 0
 
 

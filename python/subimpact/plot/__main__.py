@@ -63,8 +63,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         lines.append(f"\nfigures in {printable(drawn.directory)}\n")
     if not _print("".join(lines)):
         return 3
-    for note in drawn.notes:
-        _say(f"subimpact: warning: {note}")
     for reason in drawn.left_out:
         _say(f"subimpact: note: not drawn: {reason}")
     for failure in drawn.failed:

@@ -55,7 +55,6 @@ class Drawn(NamedTuple):
     captions: dict[str, str]  #: of the figures drawn now, by their names
     left_out: list[str]  #: with their reasons
     failed: list[str]
-    notes: list[str]  #: messages for the user
 
 
 def read_table(file: str | os.PathLike[str]) -> dict[str, Any]:
@@ -201,4 +200,4 @@ def draw_directory(directory: str | os.PathLike[str], out: str | os.PathLike[str
         text = json.dumps({"figures": listed, "left_out": left_out, "failed": failed}, indent=1, ensure_ascii=False)
         (Path(output.staging) / LIST).write_text(text + "\n", encoding="utf-8")
         output.commit()
-        return Drawn(str(target), captions, left_out, failed, output.notes)
+        return Drawn(str(target), captions, left_out, failed)

@@ -60,7 +60,7 @@ class Sweep:
     def write_hdf5(self) -> Path:
         """Writes both tables into sweep.h5, which needs h5py; returns its path. Raises StoreError if
         the tables were changed since, and OutputError."""
-        return write_hdf5(self.directory, self.notes)
+        return write_hdf5(self.directory)
 
     def _table(self, name: str) -> Any:
         import pandas

@@ -59,7 +59,7 @@ class Store:
         store, or if the directory holds other results; OutputError if it cannot be written."""
         self.directory = Path(path_text(directory, StoreError))
         self.path = self.directory / FILE
-        self._found: list[str] = []
+        self.notes: list[str] = []  #: messages for the user: what was damaged
         self._output = self._locked()
         try:
             self._refuse_links()
@@ -67,11 +67,6 @@ class Store:
         except BaseException:
             self._output.close()
             raise
-
-    @property
-    def notes(self) -> list[str]:
-        """Messages for the user: what was damaged, which files were kept."""
-        return [*self._found, *self._output.notes]
 
     @property
     def staging(self) -> Path:
@@ -210,7 +205,7 @@ class Store:
         connection = self._made()
         with self._writing():
             self._insert(connection, rows)
-        self._found.append(
+        self.notes.append(
             f"{self.path}: was damaged ({damage}); {len(rows)} of its rows could be read and are kept, "
             f"the others will be run again; the damaged file is {kept.name}"
         )
@@ -232,7 +227,7 @@ class Store:
     def take(self, other: Store) -> None:
         """Stores all rows of another store. Raises OutputError."""
         self.add(list(other.rows()))
-        self._found += other.notes
+        self.notes += other.notes
 
     def outcomes(self) -> dict[str, str]:
         """The outcome of every row by its identity."""

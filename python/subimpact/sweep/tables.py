@@ -73,10 +73,10 @@ def _write_rows(
     return outcomes
 
 
-def write_hdf5(directory: Path, notes: list[str]) -> Path:
+def write_hdf5(directory: Path) -> Path:
     """Writes sweep.h5 beside the two tables: a group each, with one data set per column. Empty cells
-    of numbers are NaN. Needs h5py. `notes` takes messages for the user. Raises StoreError if
-    the tables are not as the sweep wrote them, and OutputError."""
+    of numbers are NaN. Needs h5py. Raises StoreError if the tables are not as the sweep wrote them, and
+    OutputError."""
     import h5py
 
     identity = _manifest(directory)["identity"]
@@ -90,7 +90,6 @@ def write_hdf5(directory: Path, notes: list[str]) -> Path:
         except (OSError, RuntimeError) as error:
             raise _not_written(directory, error) from None
         output.commit()
-        notes += output.notes
     finally:
         output.close()
     return directory / HDF5

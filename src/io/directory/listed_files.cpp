@@ -176,11 +176,9 @@ std::ifstream ListedFiles::open(const std::string& name) const {
     if (!file && errno == EACCES) refuse_to_read(place, std::strerror(errno));
     if (file && fingerprint_of(file) == listed->second) return file;
   }
-  const std::optional<Manifest> now = read_manifest(directory_);
-  if (now && now->commit != manifest_->commit) throw ReplacedMeanwhile();
   fail<ResultsError>(
       "{}: is not the file that the run wrote (its length or checksum differs from {}): it was "
-      "changed or cut short since; run the case again",
+      "changed or cut short since, or a run is replacing it; read it again, or run the case again",
       path.string(), manifest_name);
 }
 

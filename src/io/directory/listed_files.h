@@ -52,10 +52,6 @@ void write_file(const std::filesystem::path& path, const std::string& content);
 /// Writes the whole content to an open file. Returns 0, or the number of the error.
 int write_all(int file, std::string_view content);
 
-/// Thrown where a file differs from its manifest because another process has put newer files in
-/// place since: what was read so far is to be read again.
-struct ReplacedMeanwhile {};
-
 /// The files of a directory as its manifest lists them, to be read.
 class ListedFiles {
  public:
@@ -68,7 +64,7 @@ class ListedFiles {
   bool are_listed() const;
 
   /// Opens a file whose length and checksum are those of the manifest or, if there is no list of
-  /// tables, the file as it is. Throws ResultsError, ReplacedMeanwhile.
+  /// tables, the file as it is. Throws ResultsError.
   std::ifstream open(const std::string& name) const;
   std::string text(const std::string& name) const;
 
@@ -76,19 +72,5 @@ class ListedFiles {
   std::filesystem::path directory_;
   std::optional<Manifest> manifest_;
 };
-
-/// What `read(files)` returns for files that others may replace meanwhile. Throws ResultsError.
-template <class Read>
-auto read_listed(const std::filesystem::path& directory, Read read) {
-  constexpr int most_attempts = 20;
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    try {
-      return read(ListedFiles(directory));
-    } catch (const ReplacedMeanwhile&) {
-    }
-  }
-  fail<ResultsError>("{}: is being rewritten repeatedly; read it when the runs have ended",
-                     directory.string());
-}
 
 }  // namespace subimpact

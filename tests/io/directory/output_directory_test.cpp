@@ -63,7 +63,6 @@ TEST_F(AnOutputDirectory, NamedByASymbolicLinkHasItsFilesInTheirPlaces) {
     OutputDirectory files(directory.path / "link", "run");
     write_file(files.staging() / "events.csv", content);
     files.commit();
-    EXPECT_TRUE(files.notes().empty());
     EXPECT_EQ(directory.read("real/events.csv"), content);
   }
 }
@@ -71,8 +70,7 @@ TEST_F(AnOutputDirectory, NamedByASymbolicLinkHasItsFilesInTheirPlaces) {
 TEST_F(AnOutputDirectory, HasOneWriterAtATime) {
   {
     const OutputDirectory first(directory.path, "run");
-    expect_in(refusal_of(directory.path, "run"), "process " + std::to_string(getpid()) + " on ",
-              "is writing into this directory; wait until");
+    expect_in(refusal_of(directory.path, "run"), "another process is writing into this directory");
     EXPECT_THROW(OutputDirectory(directory.path, "run"), DirectoryInUse);
   }
   EXPECT_EQ(refusal_of(directory.path, "run"), "(accepted)");
@@ -80,31 +78,20 @@ TEST_F(AnOutputDirectory, HasOneWriterAtATime) {
 
 TEST_F(AnOutputDirectory, LosesTheFilesOfTheRunBefore) {
   make(directory.path, "run", "1", {{"sections.csv", "old"}, {"events.csv", "old"}});
+  make(directory.path, "figures", "1", {{"report.html", "page"}});
   OutputDirectory files(directory.path, "run");
   EXPECT_EQ(directory.read("events.csv"), "old");
   commit(files, "events.csv", "new");
   EXPECT_EQ(directory.read("events.csv"), "new");
   EXPECT_FALSE(directory.has("sections.csv"));
-  EXPECT_TRUE(files.notes().empty());
-}
-
-TEST_F(AnOutputDirectory, TellsWhichPagesAndFiguresOfTheRunBeforeItRemoves) {
-  make(directory.path, "run", "1", {{"sections.csv", "old"}, {"events.csv", "old"}});
-  make(directory.path, "figures", "1", {{"report.html", "page"}, {"response.svg", "drawn"}});
-  OutputDirectory files(directory.path, "run");
-  commit(files, "events.csv", "new");
   EXPECT_FALSE(directory.has("report.html"));
-  ASSERT_EQ(files.notes().size(), 1u);
-  expect_in(files.notes().front(), "removed", "report.html, response.svg", "subimpact report");
 }
 
-TEST_F(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
+TEST_F(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgram) {
   directory.write("notes.txt", "mine");
   directory.write("transitions.csv", "mine");
   fs::create_symlink("notes.txt", directory.path / "summary.json");
-  make(directory.path, "run", "1", {{"figure.svg", "drawn"}, {"events.csv", "old"}});
-  std::ofstream(directory.path / "events.csv", std::ios::app) << " and my remark";
-  std::ofstream(directory.path / "figure.svg", std::ios::app) << " and my colours";
+  make(directory.path, "run", "1", {{"events.csv", "old"}});
   OutputDirectory files(directory.path, "run");
   for (const char* name : {"events.csv", "transitions.csv", "summary.json"}) {
     write_file(files.staging() / name, "new");
@@ -112,24 +99,10 @@ TEST_F(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
   files.commit();
   EXPECT_EQ(directory.read("notes.txt"), "mine");
   EXPECT_EQ(directory.read("transitions.csv.kept"), "mine");
-  EXPECT_EQ(directory.read("events.csv.kept"), "old and my remark");
-  EXPECT_EQ(directory.read("figure.svg"), "drawn and my colours");
+  EXPECT_EQ(directory.read("events.csv"), "new");
+  EXPECT_FALSE(directory.has("events.csv.kept"));
   EXPECT_TRUE(fs::is_symlink(directory.path / "summary.json.kept"));
   EXPECT_EQ(directory.read("summary.json"), "new");
-  EXPECT_EQ(files.notes().size(), 4u);
-}
-
-TEST_F(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
-  make(directory.path, "run", "1", {{"figure.svg", "drawn"}, {"events.csv", "old"}});
-  std::ofstream(directory.path / "figure.svg", std::ios::app) << " and my colours";
-  {
-    OutputDirectory files(directory.path, "run", "2");
-    commit(files, "events.csv", "new");
-    EXPECT_EQ(files.notes().size(), 1u);
-  }
-  const OutputDirectory later(directory.path, "figures", "2");
-  EXPECT_EQ(later.notes(), Names());
-  EXPECT_EQ(directory.read("figure.svg"), "drawn and my colours");
 }
 
 TEST_F(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
@@ -223,20 +196,6 @@ TEST_F(AKilledWriter, LeavesTheNewerFilesFromItsManifestOn) {
   EXPECT_FALSE(fs::exists(killed_.path / staging_));
 }
 
-TEST_F(AFullDisk, SendsWhatWasStagedElsewhere) {
-  OutputDirectory files(directory.path, "run");
-  write_file(files.staging() / "events.csv", "1");
-  files.relocate("disk full");
-  commit(files, "summary.json", "2");
-  EXPECT_TRUE(fs::is_empty(directory.path));
-  EXPECT_EQ(ListedFiles(files.path()).text("events.csv"), "1");
-  EXPECT_EQ(ListedFiles(files.path()).text("summary.json"), "2");
-  ASSERT_EQ(files.notes().size(), 1u);
-  EXPECT_EQ(files.notes().front(),
-            "disk full; the results are in " + files.path().string() + " instead");
-  fs::remove_all(files.path());
-}
-
 TEST_F(AFullDisk, IsNamedByTheFileThatCannotBeWritten) {
   std::string message;
   {
@@ -291,27 +250,14 @@ TEST(APipeInPlaceOfAFile, IsRefusedInsteadOfWaitedFor) {
             "it is no regular file");
 }
 
-TEST(ADirectoryRemovedDuringARun, LosesNoRow) {
+TEST(ADirectoryRemovedDuringARun, IsRefusedAtItsEnd) {
   const TemporaryDirectory directory;
   Case input;
-  input.end_time = 1.0;
-  input.output.interval = 1e-5;
-  input.output.shapes = 0.0;
+  input.end_time = 1e-3;
   ResultWriter files(directory.path / "here", input);
-  const int n_rows = 20'000;  // more than are collected before they are written
-  HistoryRow row;
-  for (int i = 0; i < n_rows; ++i) {
-    row.time = 1e-5 * i;
-    files.add(row);
-    if (i == n_rows / 2) fs::remove_all(directory.path / "here");
-  }
-  files.finish(input, Result{});
-  const fs::path place = files.directory().path();
-  EXPECT_TRUE(files.directory().is_relocated());
-  const std::string history = ListedFiles(place).text("history.csv");
-  EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), n_rows + 1);
-  EXPECT_EQ(history.find('\0'), std::string::npos);
-  fs::remove_all(place);
+  fs::remove_all(directory.path / "here");
+  EXPECT_THROW(files.finish(input, Result{}), OutputError);
+  EXPECT_TRUE(fs::is_empty(directory.path));
 }
 
 }  // namespace
