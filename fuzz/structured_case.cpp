@@ -116,7 +116,7 @@ void explain(const LoadedCase& loaded, bool with_cost) {
   resolve(loaded.value);
   loaded.notes();
   doubtful_units(loaded.value);
-  if (with_cost) explanation(forecast(loaded.value, loaded.given, 1));
+  if (with_cost) explanation(loaded.value, loaded.given);
 }
 
 }  // namespace

@@ -6,19 +6,10 @@
 namespace subimpact::app {
 namespace {
 
-struct ExplainOptions : CaseOptions {
-  Jobs jobs = n_processors();
-  bool as_json = false;
-};
-
-int explain(ExplainOptions& options) {
+int explain(CaseOptions& options) {
   const LoadedCase loaded = options.load();
-  StatusLine status;
-  status.show("resolving the case and the runs beside it");
   with_places(loaded, [&] {
-    const RunForecast found = forecast(loaded.value, loaded.given, options.jobs);
-    const std::string text = options.as_json ? forecast_json(found) : explanation(found);
-    status.clear();
+    const std::string text = explanation(loaded.value, loaded.given);
     print_doubts(loaded);
     print("{}", text);
   });
@@ -72,19 +63,16 @@ int print_keys(ListingOptions& options) {
 }  // namespace
 
 void add_explain(CLI::App& program, int& status) {
-  auto [command, options] = add_command(
-      program, status, "explain",
-      "Show what a run of a case will take, the runs that it makes and how it will be modelled",
-      explain);
+  auto [command, options] =
+      add_command(program, status, "explain",
+                  "Show what a run of a case will take and how it will be modelled", explain);
   options.add_to(command);
   options.add_within_to(command);
   options.may_repeat = true;
-  add_jobs_option(command, options.jobs);
-  command.add_flag("--json", options.as_json, "Print the forecast alone, as JSON in SI units");
   command.footer(
       "Examples:\n"
       "  subimpact explain case.toml\n"
-      "  subimpact explain case.toml --within 1us --json\n"
+      "  subimpact explain case.toml --within 1us\n"
       "  subimpact explain case.toml --method central-difference --set model.segments=1001\n"
       "Exit status: 0 done; 2 bad command line or case file.");
 }

@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 
 #include <string>
-#include <thread>
 #include <tuple>
 
 #include "bindings.h"
@@ -78,9 +77,7 @@ LoadedCase load(const std::string& text, const std::string& name,
 }
 
 std::string explain(const LoadedCase& loaded) {
-  return with_places(loaded, [&] {
-    return explanation(forecast(loaded.value, loaded.given, std::thread::hardware_concurrency()));
-  });
+  return with_places(loaded, [&] { return explanation(loaded.value, loaded.given); });
 }
 
 // The summary of a run that has not begun: settings given and used.

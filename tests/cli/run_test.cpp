@@ -182,34 +182,12 @@ TEST_F(Memory, OfARunDoesNotGrowWithItsRows) {
 }
 
 TEST_F(Memory, OfExplainIsSmallAndThatOfTheRunIsForecast) {
-  const Finished finished =
-      run_anywhere(paper("explain", {"model.section=elastic", "model.segments=20001"},
-                         {"--method", "exponential", "--json", "--jobs", "2"}));
-  // Of two runs beside one another, each with two matrices of 10,001 modes.
-  const auto memory = nlohmann::json::parse(finished.output).at("memory_bytes").get<double>();
-  EXPECT_GT(memory, 4.0 * 8.0 * 1e8);
-  EXPECT_LT(memory, 1.25 * 4.0 * 8.0 * 1e8);
+  const Finished finished = run_anywhere(paper(
+      "explain", {"model.section=elastic", "model.segments=20001"}, {"--method", "exponential"}));
+  // Two matrices of 10,001 modes.
+  expect_in(finished.output, "memory                about 16");
   if (has_address_sanitizer) GTEST_SKIP() << "the address sanitizer takes memory of its own";
   EXPECT_LT(finished.megabytes, 100.0);
-}
-
-TEST_F(Memory, ThatExplainForecastsSufficesForTheRun) {
-  directory.write("strike.toml",
-                  "beam = { length = 0.7112, width = 0.0163, thickness = 0.0075, density = 2600, "
-                  "youngs_modulus = 71.96e9 }\n"
-                  "striker = { mass = 0.201, nose_radius = 0.01, velocity = 15.9 }\n"
-                  "time = { end = 2e-3 }\n");
-  for (const char* jobs : {"1", "4"}) {
-    const Finished explained =
-        run_in(directory, {"explain", "strike.toml", "--json", "--jobs", jobs});
-    const auto forecast = nlohmann::json::parse(explained.output);
-    EXPECT_GT(forecast.at("expected").at("runs").size(), 4u);
-    const Finished run =
-        run_in(directory, {"run", "strike.toml", "--quiet", "--out", "here", "--jobs", jobs});
-    if (has_address_sanitizer) GTEST_SKIP() << "the address sanitizer takes memory of its own";
-    EXPECT_LT(1e6 * run.megabytes, forecast.at("memory_bytes").get<double>());
-    EXPECT_GT(3e6 * run.megabytes, forecast.at("memory_bytes").get<double>());
-  }
 }
 
 TEST_F(Memory, ThatARunMayNotTakeIsNamedBeforeItBegins) {

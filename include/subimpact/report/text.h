@@ -11,7 +11,6 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
-#include "subimpact/study/forecast.h"
 #include "subimpact/study/sensitivity/sensitivity.h"
 
 namespace subimpact {
@@ -98,13 +97,8 @@ std::string model_table(const std::vector<ModelRun>& runs);
 /// the digits that the errors allow.
 std::string sensitivity_table(const Sensitivity& study);
 
-/// What a run of a case will take, the runs that it makes, and what the first of them models, why.
-/// Throws InvalidCase.
-std::string explanation(const RunForecast& forecast);
-
-/// The runs and what they take, in words and as JSON.
-std::string forecast_text(const RunForecast& forecast);
-std::string forecast_json(const RunForecast& forecast);
+/// What a run of a case will take, and what the first of its runs models, why. Throws InvalidCase.
+std::string explanation(const Case& input, const GivenKeys& given);
 
 /// Keys of a case file, with units, what they accept and their defaults: all, or those with a word,
 /// in whatever case, in name, meaning or choices.

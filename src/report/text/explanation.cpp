@@ -14,6 +14,7 @@
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
 #include "subimpact/simulate/options.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 namespace {
@@ -269,23 +270,51 @@ std::string integration_section(const Case& input, const ResolvedSettings& used)
   return text;
 }
 
-std::string description(const Case& input, const ResolvedSettings& used,
-                        const RunForecast& forecast) {
-  return (input.title.empty() ? "untitled case" : input.title) + "\nForecast of `subimpact run`\n" +
-         forecast_text(forecast) + scene_section(input, used) + contact_section(input, used) +
-         model_section(input, used) + integration_section(input, used);
+// Processor time: of an evaluation per unknown, from the cheapest to the dearest scenes of
+// validation/cost/run_cost, and of what the program does besides.
+constexpr double shortest_unit = 1e-9, longest_unit = 4e-9;
+constexpr double seconds_beside[] = {0.01, 0.2};
+// Of the program with its libraries and files, bytes.
+constexpr double memory_beside = 30e6;
+
+std::string cost_section(const Case& first, const ResolvedSettings& used, const WorkRange& work) {
+  const auto rough = [](double seconds) {
+    return duration_text(std::stod(fmt::format("{:.1g}", seconds)));
+  };
+  std::string time = rough(shortest_unit * work.least + seconds_beside[0]);
+  time += work.most ? " to " + rough(longest_unit * *work.most + seconds_beside[1])
+                    : " or more, since the method chooses its steps";
+  std::vector<std::string> without;
+  if (first.strikes > 1) without.push_back("strikes after the first, which each take as long");
+  if (!first.scatter.empty()) without.emplace_back("the runs that show the scatter");
+  return "Forecast of `subimpact run`\n" +
+         line("time",
+              fmt::format("{} of a processor, the longer the more accuracy takes{}{}", time,
+                          without.empty() ? "" : "; without ", fmt::join(without, " and "))) +
+         line("memory", fmt::format("about {:.0f} MB, and {:.2g} MB for each run beside it, on the "
+                                    "first mesh",
+                                    MB * (memory_beside + used.memory), MB * used.memory));
 }
 
 }  // namespace
 
-std::string explanation(const RunForecast& forecast) {
-  const ChosenModel& first = forecast.first;
-  std::string text = description(first.input, resolve(first.input).settings(), forecast);
-  if (!first.input.model_choice.empty()) {
-    text += fmt::format("Choice of the model\n  {}\n", first.input.model_choice);
+std::string explanation(const Case& input, const GivenKeys& given) {
+  Case once = input;
+  once.strikes = 1;
+  ChosenModel found = first_run(once, given);
+  found.input.strikes = input.strikes;
+  const Case& first = found.input;
+  const ResolvedSettings used = resolve(first).settings();
+  const WorkRange work = work_expected(first, choices_left(once, given, std::nullopt));
+  std::string text = (first.title.empty() ? "untitled case" : first.title) + "\n" +
+                     cost_section(first, used, work) + scene_section(first, used) +
+                     contact_section(first, used) + model_section(first, used) +
+                     integration_section(first, used);
+  if (!first.model_choice.empty()) {
+    text += fmt::format("Choice of the model\n  {}\n", first.model_choice);
   }
-  if (first.reason.empty()) return text;
-  return text + fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", first.reason);
+  if (found.reason.empty()) return text;
+  return text + fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", found.reason);
 }
 
 std::string key_listing(const std::string& word) {

@@ -405,6 +405,15 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open) {
   return chosen;
 }
 
+WorkRange work_expected(const Case& first, const std::optional<OpenChoices>& open) {
+  const double steps = work_of_steps(first);
+  const double level = steps + work_with_others * resolve(first).settings().decomposition;
+  if (open && Refinement(first, *open).fixed_key() == nullptr) {
+    return {level, std::max(level, work_limit_of(first))};
+  }
+  return {level, steps > 0.0 ? std::optional(level) : std::nullopt};
+}
+
 WithinRun simulate_within(const Case& input, const OpenChoices& open,
                           const WithinOptions& options) {
   return Search(input, open, options).run();

@@ -61,6 +61,15 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
 /// Mesh and method of a case's first run, and in words how the search continues from there.
 ChosenModel first_choice(const Case& input, const OpenChoices& open);
 
+/// Counted work of all runs that run_as_asked() makes of a case, as far as it is known beforehand:
+/// at least that of the first level; at most the limit of the search or, where that is more or
+/// nothing is searched, that level. `open`: empty for a case that is run as it is given.
+struct WorkRange {
+  double least = 0.0;
+  std::optional<double> most;  ///< none: the method chooses its steps
+};
+WorkRange work_expected(const Case& first, const std::optional<OpenChoices>& open);
+
 /// A case with every choice made, and its run.
 struct WithinRun {
   Case input;  ///< simulate_judged() with cases_beside(input) repeats the run, bit for bit
