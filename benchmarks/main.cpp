@@ -15,13 +15,12 @@
 namespace subimpact::benchmarks {
 
 std::span<const Part> all_parts() {
-  static constexpr std::array<Part, 10> parts{{
+  static constexpr std::array<Part, 9> parts{{
       {"naive", "central-difference against the same scheme done naively", measure_naive},
       {"vectors", "own vector operations against the SUNDIALS library's", measure_vectors},
       {"evaluation",
        "cost of a right-hand side of erk and nystrom against a central-difference step",
        measure_evaluation},
-      {"mass", "banded mass solver against KLU", measure_mass},
       {"reversals", "sections put right at step ends against history advanced there only",
        measure_reversals},
       {"events", "finding every event and stating its error, against the runs alone",
@@ -50,7 +49,7 @@ int main(int argc, char** argv) {
     list += fmt::format("\n  {:12} {}", part.name, part.question);
   list +=
       "\n\nExamples:\n  subimpact_benchmark\n  subimpact_benchmark naive evaluation --repeats 11\n"
-      "  subimpact_benchmark mass --clock wall";
+      "  subimpact_benchmark mesh --clock wall";
 
   CLI::App app{"Measures alternatives side by side, alternating, and prints medians and ratios."};
   app.footer(list);

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "integrate/sundials.h"
 #include "measure.h"
+#include "numerics/mass_solver.h"
 #include "simulate/run_parts.h"
 
 namespace subimpact::benchmarks {
@@ -66,26 +66,20 @@ void curvature(benchmark::State& state) {
 }
 BENCHMARK(curvature);
 
-void solve(benchmark::State& state, MassSolverKind kind) {
+void solve(benchmark::State& state) {
   Bent bent(SectionKind::elastic, 0.5);
   const BandedMatrix& mass = bent.beam.mesh().mass();
-  std::unique_ptr<MassSolver> solver;
-  if (kind == MassSolverKind::klu) {
-    solver = make_klu_mass_solver(mass);
-  } else {
-    solver = std::make_unique<BandedSolver>(mass);
-  }
+  const BandedSolver solver(mass);
   const std::vector<double> start(mass.size(), 1.0);
   std::vector<double> x(mass.size());
   for (auto _ : state) {
     x = start;
-    solver->solve(x);
+    solver.solve(x);
     benchmark::DoNotOptimize(x.data());
     benchmark::ClobberMemory();
   }
 }
-BENCHMARK_CAPTURE(solve, banded, MassSolverKind::banded);
-BENCHMARK_CAPTURE(solve, klu, MassSolverKind::klu);
+BENCHMARK(solve);
 
 // One section law on a branch behind `reversals` turns.
 void section_law(benchmark::State& state, int layers) {

@@ -19,7 +19,6 @@ std::span<const Part> all_parts();
 void measure_naive(const Settings& settings);
 void measure_vectors(const Settings& settings);
 void measure_evaluation(const Settings& settings);
-void measure_mass(const Settings& settings);
 void measure_reversals(const Settings& settings);
 void measure_events(const Settings& settings);
 void measure_exponential(const Settings& settings);

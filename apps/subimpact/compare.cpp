@@ -122,7 +122,7 @@ void add_compare(CLI::App& program, int& status) {
       "solver.step. They are compared with nystrom at rtol 1e-11, whose own error is stated; "
       "sub-impacts are matched one to one.\n"
       "Examples:\n"
-      "  subimpact compare case.toml --methods central-difference,erk,dirk,imex,adams,bdf\n"
+      "  subimpact compare case.toml --methods central-difference,erk,dirk,adams,bdf\n"
       "  subimpact compare case.toml --methods erk:dop853,erk:dormand-prince --out out/tables\n"
       "  subimpact compare case.toml --theories euler-bernoulli,rayleigh,timoshenko\n"
       "  subimpact compare case.toml --laws foundation,hertz,sphere\n"

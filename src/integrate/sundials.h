@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "integrate/options.h"
-#include "numerics/mass_solver.h"
 
 namespace subimpact {
 
@@ -13,10 +12,9 @@ std::string sundials_version();  ///< of the library that runs
 std::string klu_version();       ///< of the headers compiled against
 
 /// The tables of Runge-Kutta coefficients, in the order in which users see them: explicit embedded
-/// ones, implicit ones, and pairs of an implicit and an explicit one; the first is the default.
+/// ones and implicit ones; the first is the default.
 const std::vector<CoefficientTable>& explicit_tables();
 const std::vector<CoefficientTable>& dirk_tables();
-const std::vector<CoefficientTable>& imex_tables();
 
 /// SUNDIALS ARKODE's explicit Runge-Kutta methods on y' = [v, a(q)].
 ///
@@ -37,12 +35,6 @@ std::unique_ptr<Integrator> make_arkode_erk(SecondOrderOde& ode, const Integrato
 /// `erk`; a restart keeps the step size. With a fixed step the tolerance still bounds the error of
 /// Newton's iteration. Throws std::invalid_argument for a table that is not among dirk_tables().
 std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system,
-                                             const IntegratorOptions& options);
-
-/// ARKODE with the right-hand side in two parts: [v, stiff part of f] taken implicitly, [0, rest of
-/// f] explicitly, by a pair of tables that share their stages. The Newton matrix then only changes
-/// where a section flows. Throws std::invalid_argument for pairs not in imex_tables().
-std::unique_ptr<Integrator> make_arkode_imex(MechanicalSystem& system,
                                              const IntegratorOptions& options);
 
 constexpr int adams_order_limit = 12;
@@ -73,9 +65,5 @@ std::unique_ptr<Integrator> make_cvode_adams(SecondOrderOde& ode, const Integrat
 /// sparse: KLU factors it, its pattern analysed once.
 std::unique_ptr<Integrator> make_cvode_bdf(MechanicalSystem& system,
                                            const IntegratorOptions& options);
-
-/// The mass matrix factored once by KLU (SuiteSparse), a general sparse LU. Throws
-/// std::runtime_error with KLU's status if it cannot be factored.
-std::unique_ptr<MassSolver> make_klu_mass_solver(const BandedMatrix& mass);
 
 }  // namespace subimpact

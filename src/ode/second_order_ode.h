@@ -51,19 +51,14 @@ struct SparsityPattern {
 /// depends_on_velocity(), of y = [q, v] only q is read.
 class MechanicalSystem : public SecondOrderOde {
  public:
-  /// f is the sum of a stiff part, which only implicit methods take with long steps, and the rest.
-  enum class Part { all, stiff, rest };
-
-  /// f at y, or one part of it; changes no history.
-  virtual void force(std::span<const double> y, Part part, std::span<double> result) = 0;
+  /// f at y; changes no history.
+  virtual void force(std::span<const double> y, std::span<double> result) = 0;
   virtual const SparsityPattern& pattern() const = 0;
   virtual void mass_entries(std::span<double> values) const = 0;
-  /// -d(part of f)/dq at y.
-  virtual void stiffness_entries(std::span<const double> y, Part part,
-                                 std::span<double> values) = 0;
-  /// -d(part of f)/dv at y; called only of a system that depends_on_velocity().
-  virtual void damping_entries(std::span<const double> /*y*/, Part /*part*/,
-                               std::span<double> values) {
+  /// K at y.
+  virtual void stiffness_entries(std::span<const double> y, std::span<double> values) = 0;
+  /// C at y; called only of a system that depends_on_velocity().
+  virtual void damping_entries(std::span<const double> /*y*/, std::span<double> values) {
     std::fill(values.begin(), values.end(), 0.0);
   }
 };

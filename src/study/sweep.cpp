@@ -124,7 +124,7 @@ std::vector<std::string> default_methods(const Case& input) {
   for (const char* method :
        {"central-difference", "exponential", "nystrom:dprkn8", "nystrom:dprkn12", "erk:dop853",
         "erk:dop853+library", "erk:dormand-prince", "erk:verner", "erk:bogacki-shampine", "adams",
-        "adams+library", "bdf", "dirk:esdirk547", "imex:ark437"}) {
+        "adams+library", "bdf", "dirk:esdirk547"}) {
     if (can_run(with_method(input, method))) methods.push_back(method);
   }
   return methods;

@@ -168,57 +168,42 @@ double StruckBeam::damping_power(std::span<const double> velocities) {
   return power;
 }
 
-void StruckBeam::force(std::span<const double> y, Part part, std::span<double> result) {
-  const auto unknowns = y.first(n_);
+void StruckBeam::force(std::span<const double> y, std::span<double> result) {
   const auto forces = result.first(n_);
-  if (part == Part::rest) {
-    std::fill(forces.begin(), forces.end(), 0.0);
-  } else {
-    ++n_forces_;
-    bend(unknowns, forces);
-    if (!damping_.is_none()) add_damping(beam_velocities(y), forces);
-  }
-  result[n_] = 0.0;
-  if (part == Part::stiff) return;
+  ++n_forces_;
+  bend(y.first(n_), forces);
+  if (!damping_.is_none()) add_damping(beam_velocities(y), forces);
   const double contact = contact_force(y);
   mesh_->struck_point().add_to(forces, contact);
   if (!loads_.is_empty()) loads_.add_to(forces, time_);
   result[n_] = has_stop() ? 0.0 : striker_mass_ * striker_load() - contact;
 }
 
-void StruckBeam::stiffness_entries(std::span<const double> y, Part part, std::span<double> values) {
+void StruckBeam::stiffness_entries(std::span<const double> y, std::span<double> values) {
   const auto unknowns = y.first(n_);
-  std::fill(moments_.begin(), moments_.end(), 0.0);
-  if (part != Part::rest) {
-    mesh_->curvatures(unknowns, curvatures_);
-    for (std::size_t i = 0; i < moments_.size(); ++i) {
-      moments_[i] = section_evaluation_ == Evaluation::smooth
-                        ? sections_.smooth_tangent(i, curvatures_[i])
-                        : sections_.tangent(i, curvatures_[i]);
-    }
+  mesh_->curvatures(unknowns, curvatures_);
+  for (std::size_t i = 0; i < moments_.size(); ++i) {
+    moments_[i] = section_evaluation_ == Evaluation::smooth
+                      ? sections_.smooth_tangent(i, curvatures_[i])
+                      : sections_.tangent(i, curvatures_[i]);
   }
-  double slope = 0.0;
-  if (part != Part::stiff) {
-    const double lambda = y[n_] - mesh_->struck_point()(unknowns);
-    slope =
-        contact_.is_damped() ? contact_.slope(lambda, indentation_rate(y)) : contact_.slope(lambda);
-  }
-  if (!tension_ || part == Part::rest) {
-    return jacobian().stiffness_entries(moments_, slope, values);
-  }
+  const double lambda = y[n_] - mesh_->struck_point()(unknowns);
+  const double slope =
+      contact_.is_damped() ? contact_.slope(lambda, indentation_rate(y)) : contact_.slope(lambda);
+  if (!tension_) return jacobian().stiffness_entries(moments_, slope, values);
   // What a change of the tension adds is of rank one, not banded, and left out.
   jacobian().stiffness_entries(moments_, slope, values, tension_->at(unknowns), &tension_->form());
 }
 
-void StruckBeam::damping_entries(std::span<const double> y, Part part, std::span<double> values) {
+void StruckBeam::damping_entries(std::span<const double> y, std::span<double> values) {
   std::fill(values.begin(), values.end(), 0.0);
-  if (part != Part::rest && damping_.stiffness > 0.0) {
+  if (damping_.stiffness > 0.0) {
     std::fill(moments_.begin(), moments_.end(), sections_.stiffness());
     jacobian().stiffness_entries(moments_, 0.0, values);
     for (double& value : values) value *= damping_.stiffness;
   }
-  if (part != Part::stiff) jacobian().add_contact(contact_.rate_slope(indentation(y)), values);
-  if (part == Part::rest || damping_.mass == 0.0) return;
+  jacobian().add_contact(contact_.rate_slope(indentation(y)), values);
+  if (damping_.mass == 0.0) return;
   std::vector<double> mass(values.size());
   jacobian().mass_entries(mass);
   mass.back() = 0.0;  // the striker's

@@ -86,11 +86,11 @@ class StruckBeam final : public MechanicalSystem {
   Scales scales() const override { return scales_; }
 
   /// Stiff part: the bending forces; the rest: the contact force.
-  void force(std::span<const double> y, Part part, std::span<double> result) override;
+  void force(std::span<const double> y, std::span<double> result) override;
   const SparsityPattern& pattern() const override { return jacobian().pattern(); }
   void mass_entries(std::span<double> values) const override { jacobian().mass_entries(values); }
-  void stiffness_entries(std::span<const double> y, Part part, std::span<double> values) override;
-  void damping_entries(std::span<const double> y, Part part, std::span<double> values) override;
+  void stiffness_entries(std::span<const double> y, std::span<double> values) override;
+  void damping_entries(std::span<const double> y, std::span<double> values) override;
 
   const BeamMesh& mesh() const { return *mesh_; }
   const SectionField& sections() const { return sections_; }

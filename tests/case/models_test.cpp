@@ -49,14 +49,6 @@ TEST(AMirroredStrike, GivesTheSameEvents) {
   expect_same_events(left, simulate(input));
 }
 
-TEST(TheMassSolvers, GiveTheSameEvents) {
-  Case input = paper_case(SectionKind::elastic, 0.5e-3);
-  input.solver.step = 1e-7;
-  const Result banded = simulate(input);
-  input.study.mass_solver = MassSolverKind::klu;
-  expect_same_events(banded, simulate(input));
-}
-
 TEST(ManyLayers, ComeCloseToTheExactSection) {
   const Case exact = paper_case(SectionKind::exact, 0.25e-3);
   Case layers = paper_case(SectionKind::layers, 0.25e-3);

@@ -10,8 +10,8 @@
 namespace subimpact {
 namespace {
 
-constexpr Method adaptive[] = {Method::erk,  Method::nystrom, Method::exponential, Method::dirk,
-                               Method::imex, Method::adams,   Method::bdf};
+constexpr Method adaptive[] = {Method::erk,  Method::nystrom, Method::exponential,
+                               Method::dirk, Method::adams,   Method::bdf};
 
 // A mass of 0.1 g to 10 kg that falls for 1 mm to 10 m onto a rigid plane and bounces.
 Case drop(ContactKind kind, bool damped, std::mt19937& random) {

@@ -1,4 +1,4 @@
-// The implicit and half-implicit Runge-Kutta methods: orders, damping, matrices, failures.
+// The implicit Runge-Kutta methods: orders, damping, matrices, failures.
 
 #include "integrate/sundials.h"
 #include "mechanical_systems.h"
@@ -31,15 +31,11 @@ std::vector<ImplicitMethod> all_methods() {
   for (const CoefficientTable& table : dirk_tables()) {
     methods.push_back({"dirk_" + table.name, table, make_arkode_dirk});
   }
-  for (const CoefficientTable& table : imex_tables()) {
-    methods.push_back({"imex_" + table.name, table, make_arkode_imex});
-  }
   return methods;
 }
 
 std::vector<ImplicitMethod> default_methods() {
-  return {{"dirk", dirk_tables().front(), make_arkode_dirk},
-          {"imex", imex_tables().front(), make_arkode_imex}};
+  return {{"dirk", dirk_tables().front(), make_arkode_dirk}};
 }
 
 class ImplicitOrder : public testing::TestWithParam<ImplicitMethod> {

@@ -15,15 +15,15 @@ class KnownSystem : public Known<MechanicalSystem> {
   std::size_t n_positions() const override { return static_cast<std::size_t>(mass_.rows()); }
   Scales scales() const override { return {1.0, 1.0}; }
   void acceleration(std::span<const double> q, std::span<double> a) override {
-    write(mass_.ldlt().solve(force_at(read(q), Part::all)), a);
+    write(mass_.ldlt().solve(force_at(read(q))), a);
   }
-  void force(std::span<const double> y, Part part, std::span<double> result) override {
-    write(force_at(read(y.first(n_positions())), part), result);
+  void force(std::span<const double> y, std::span<double> result) override {
+    write(force_at(read(y.first(n_positions()))), result);
   }
   const SparsityPattern& pattern() const override { return pattern_; }
   void mass_entries(std::span<double> values) const override { write(mass_.reshaped(), values); }
-  void stiffness_entries(std::span<const double> y, Part part, std::span<double> values) override {
-    write(stiffness_at(read(y.first(n_positions())), part).reshaped(), values);
+  void stiffness_entries(std::span<const double> y, std::span<double> values) override {
+    write(stiffness_at(read(y.first(n_positions()))).reshaped(), values);
   }
 
  protected:
@@ -34,8 +34,8 @@ class KnownSystem : public Known<MechanicalSystem> {
       pattern_.column_starts.push_back(pattern_.n_entries());
     }
   }
-  virtual Vector force_at(const Vector& q, Part part) const = 0;
-  virtual Matrix stiffness_at(const Vector& q, Part part) const = 0;
+  virtual Vector force_at(const Vector& q) const = 0;
+  virtual Matrix stiffness_at(const Vector& q) const = 0;
 
   Matrix mass_;
 
@@ -50,7 +50,7 @@ class KnownSystem : public Known<MechanicalSystem> {
 };
 
 /// Equal elements of a bar between two walls: tridiagonal stiffness and consistent mass, all modes
-/// excited. The last spring counts as the part that is not stiff.
+/// excited.
 class ElasticBar final : public KnownSystem {
  public:
   explicit ElasticBar(std::size_t n) : KnownSystem(tridiagonal(n, 2.0 / 3.0, 1.0 / 6.0)) {}
@@ -80,19 +80,13 @@ class ElasticBar final : public KnownSystem {
     matrix.diagonal(-1).setConstant(beside);
     return matrix;
   }
-  Matrix stiffness_at(const Vector& q, Part part) const override {
-    const Eigen::Index last = q.size() - 1;
-    Matrix rest = Matrix::Zero(q.size(), q.size());
-    rest(last, last) = 1.0;
-    const Matrix all = tridiagonal(n_positions(), 2.0, -1.0);
-    if (part == Part::rest) return rest;
-    return part == Part::all ? all : Matrix(all - rest);
+  Matrix stiffness_at(const Vector&) const override {
+    return tridiagonal(n_positions(), 2.0, -1.0);
   }
-  Vector force_at(const Vector& q, Part part) const override { return -stiffness_at(q, part) * q; }
+  Vector force_at(const Vector& q) const override { return -stiffness_at(q) * q; }
 };
 
-/// CurvedMotion under a mass matrix that couples all unknowns: f = Mass a(q). The cubic terms are
-/// the part that is not stiff.
+/// CurvedMotion under a mass matrix that couples all unknowns: f = Mass a(q).
 class CurvedSystem final : public KnownSystem {
  public:
   CurvedSystem()
@@ -108,23 +102,19 @@ class CurvedSystem final : public KnownSystem {
                                                             {2.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0},
                                                             {-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0}};
 
-  Vector force_at(const Vector& q, Part part) const override {
+  Vector force_at(const Vector& q) const override {
     const Eigen::Array3d s = (mix.transpose() * q).array();
-    Eigen::Array3d rate = Eigen::Array3d::Zero();
-    if (part != Part::rest) rate += linear.array() * s;
-    if (part != Part::stiff) rate += cubic.array() * s.cube();
+    const Eigen::Array3d rate = linear.array() * s + cubic.array() * s.cube();
     return mass_ * (mix * rate.matrix());
   }
-  Matrix stiffness_at(const Vector& q, Part part) const override {
+  Matrix stiffness_at(const Vector& q) const override {
     const Eigen::Array3d s = (mix.transpose() * q).array();
-    Eigen::Array3d slope = Eigen::Array3d::Zero();
-    if (part != Part::rest) slope += linear.array();
-    if (part != Part::stiff) slope += 3.0 * cubic.array() * s.square();
+    const Eigen::Array3d slope = linear.array() + 3.0 * cubic.array() * s.square();
     return -mass_ * mix * slope.matrix().asDiagonal() * mix.transpose();
   }
 };
 
-/// Independent oscillators of given frequencies and amplitudes, all with unit mass and all stiff.
+/// Independent oscillators of given frequencies and amplitudes, all with unit mass.
 class Oscillators final : public KnownSystem {
  public:
   Oscillators(Vector frequencies, Vector amplitudes)
@@ -148,9 +138,8 @@ class Oscillators final : public KnownSystem {
   }
 
  private:
-  Vector force_at(const Vector& q, Part part) const override { return -stiffness_at(q, part) * q; }
-  Matrix stiffness_at(const Vector& q, Part part) const override {
-    if (part == Part::rest) return Matrix::Zero(q.size(), q.size());
+  Vector force_at(const Vector& q) const override { return -stiffness_at(q) * q; }
+  Matrix stiffness_at(const Vector&) const override {
     return frequencies_.array().square().matrix().asDiagonal();
   }
   Vector frequencies_, amplitudes_;
@@ -183,15 +172,15 @@ class ThrowingBar final : public MechanicalSystem {
     count(In::acceleration);
     bar_.acceleration(q, a);
   }
-  void force(std::span<const double> q, Part part, std::span<double> result) override {
+  void force(std::span<const double> q, std::span<double> result) override {
     count(In::force);
-    bar_.force(q, part, result);
+    bar_.force(q, result);
   }
   const SparsityPattern& pattern() const override { return bar_.pattern(); }
   void mass_entries(std::span<double> values) const override { bar_.mass_entries(values); }
-  void stiffness_entries(std::span<const double> q, Part part, std::span<double> values) override {
+  void stiffness_entries(std::span<const double> q, std::span<double> values) override {
     count(In::stiffness);
-    bar_.stiffness_entries(q, part, values);
+    bar_.stiffness_entries(q, values);
   }
   State initial() const { return bar_.initial(); }
 

@@ -25,8 +25,7 @@ std::ostream& operator<<(std::ostream& out, const Finder& finder) { return out <
 
 const Finder one_step_methods[] = {{"dop853", "dop853", 0, make_arkode_erk},
                                    {"dormand_prince", "dormand-prince", 0, make_arkode_erk},
-                                   {"dirk", "", 0, make_arkode_dirk},
-                                   {"imex", "", 0, make_arkode_imex}};
+                                   {"dirk", "", 0, make_arkode_dirk}};
 const Finder multistep_methods[] = {{"adams", "", adams_order_limit, make_cvode_adams},
                                     {"bdf", "", bdf_order_limit, make_cvode_bdf}};
 

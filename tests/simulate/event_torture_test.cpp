@@ -25,9 +25,8 @@ class Random {
 
 const std::vector<std::string> tables = {"dormand-prince", "dop853", "bogacki-shampine", "dprkn8",
                                          "exponential"};
-const std::vector<std::string> library_methods = {
-    "dormand-prince", "dop853", "bogacki-shampine", "dirk:esdirk547", "imex:ark437",
-    "adams",          "bdf"};
+const std::vector<std::string> library_methods = {"dormand-prince", "dop853", "bogacki-shampine",
+                                                  "dirk:esdirk547", "adams",  "bdf"};
 
 // Restitution of an elasto-plastic impact that reaches x = lambda_m/lambda_s, from its energies.
 double restitution_at(double x) {

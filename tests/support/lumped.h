@@ -53,7 +53,7 @@ struct TwoBodies {
 
 /// How a two-body problem is integrated.
 struct Way {
-  /// Of erk or nystrom, "dirk:" or "imex:" and a table, or a method without tables.
+  /// Of erk or nystrom, "dirk:" and a table, or a method without tables.
   std::string table = "dop853";
   double rtol = 1e-10;
   std::optional<double> fixed_step;
@@ -85,7 +85,6 @@ struct Way {
     const std::size_t colon = table.find(':');
     options.table = table.substr(colon == std::string::npos ? 0 : colon + 1);
     if (table.rfind("dirk:", 0) == 0) return make_arkode_dirk(beam, options);
-    if (table.rfind("imex:", 0) == 0) return make_arkode_imex(beam, options);
     return make_arkode_erk(beam, options);
   }
 };

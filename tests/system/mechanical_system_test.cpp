@@ -1,11 +1,10 @@
-// The struck beam as implicit methods see it: forces in parts, mass and tangent stiffness.
+// The struck beam as implicit methods see it: forces, mass and tangent stiffness.
 
 #include "beam_under_test.h"
 
 namespace subimpact {
 namespace {
 
-using Part = MechanicalSystem::Part;
 constexpr double unit = 1.56337e-5;  // yield indentation
 
 // y = A x for the entries of a pattern.
@@ -24,27 +23,14 @@ class MechanicalBeam : public testing::TestWithParam<Model> {
  protected:
   StruckBeam beam_ = make_beam(GetParam());
   std::size_t n_ = beam_.n_positions();
-  std::vector<double> force(const State& y, Part part) {
+  std::vector<double> force(const State& y) {
     std::vector<double> result(n_);
-    beam_.force({y.data(), n_}, part, result);
+    beam_.force({y.data(), n_}, result);
     return result;
   }
 };
 
 INSTANTIATE_TEST_SUITE_P(Models, MechanicalBeam, testing::ValuesIn(models()), NamedAsPrinted{});
-
-TEST_P(MechanicalBeam, ForceIsTheSumOfItsParts) {
-  enter(beam_, ContactBranch::plastic, 2.0 * unit);
-  const State y = smooth_state(beam_, 3, 2.0, 4.0 * unit, 1.0);
-  const std::vector<double> all = force(y, Part::all);
-  const std::vector<double> stiff = force(y, Part::stiff);
-  const std::vector<double> rest = force(y, Part::rest);
-  for (std::size_t i = 0; i < n_; ++i) {
-    EXPECT_NEAR(all[i], stiff[i] + rest[i], 1e-13 * largest_of(all));
-  }
-  EXPECT_NEAR(rest.back(), -beam_.contact_force(y), 1e-12 * std::abs(rest.back()));
-  EXPECT_EQ(stiff.back(), 0.0);
-}
 
 TEST_P(MechanicalBeam, MassTimesAccelerationIsForce) {
   enter(beam_, ContactBranch::elastic, 3.0 * unit);
@@ -53,31 +39,28 @@ TEST_P(MechanicalBeam, MassTimesAccelerationIsForce) {
   beam_.acceleration({y.data(), n_}, a);
   beam_.mass_entries(mass);
   const std::vector<double> product = multiply(beam_.pattern(), mass, a);
-  const std::vector<double> all = force(y, Part::all);
+  const std::vector<double> all = force(y);
   expect_near(product, all, 1e-12 * largest_of(all));
 }
 
-TEST_P(MechanicalBeam, StiffnessIsMinusTheDerivativeOfEveryPartOfTheForce) {
+TEST_P(MechanicalBeam, StiffnessIsMinusTheDerivativeOfTheForce) {
   enter(beam_, ContactBranch::plastic, 2.0 * unit);
   beam_.commit(smooth_state(beam_, 8, 1.8, 2.0 * unit, 1.0));
   const State y = smooth_state(beam_, 3, 2.0, 4.0 * unit, 1.0);
-  for (const Part part : {Part::all, Part::stiff, Part::rest}) {
-    std::vector<double> stiffness(beam_.pattern().n_entries());
-    beam_.stiffness_entries({y.data(), n_}, part, stiffness);
-    for (unsigned seed = 0; seed < 5; ++seed) {
-      std::vector<double> direction = random_numbers(seed, n_);
-      const double h = 1e-11;
-      State ahead = y, behind = y;
-      for (std::size_t i = 0; i < n_; ++i) {
-        ahead[i] += h * direction[i];
-        behind[i] -= h * direction[i];
-      }
-      const std::vector<double> expected = multiply(beam_.pattern(), stiffness, direction);
-      const std::vector<double> f1 = force(ahead, part);
-      const std::vector<double> f0 = force(behind, part);
-      for (std::size_t i = 0; i < n_; ++i) {
-        EXPECT_NEAR(expected[i], (f0[i] - f1[i]) / (2.0 * h), 1e-4 * largest_of(expected) + 1e-6);
-      }
+  std::vector<double> stiffness(beam_.pattern().n_entries());
+  beam_.stiffness_entries({y.data(), n_}, stiffness);
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    std::vector<double> direction = random_numbers(seed, n_);
+    const double h = 1e-11;
+    State ahead = y, behind = y;
+    for (std::size_t i = 0; i < n_; ++i) {
+      ahead[i] += h * direction[i];
+      behind[i] -= h * direction[i];
+    }
+    const std::vector<double> expected = multiply(beam_.pattern(), stiffness, direction);
+    const std::vector<double> f1 = force(ahead), f0 = force(behind);
+    for (std::size_t i = 0; i < n_; ++i) {
+      EXPECT_NEAR(expected[i], (f0[i] - f1[i]) / (2.0 * h), 1e-4 * largest_of(expected) + 1e-6);
     }
   }
 }

@@ -27,7 +27,7 @@ enum class ReversalHandling {
   step_end  ///< history advances at step ends only
 };
 
-enum class Method { central_difference, erk, nystrom, dirk, imex, adams, bdf, exponential };
+enum class Method { central_difference, erk, nystrom, dirk, adams, bdf, exponential };
 
 struct SolverOptions {
   Method method = Method::erk;
@@ -112,8 +112,6 @@ struct OutputOptions {
   }
 };
 
-enum class MassSolverKind { banded, klu };
-
 enum class VectorOperationsKind { project, library };
 
 /// How central differences advance the striker over a step.
@@ -125,7 +123,6 @@ enum class StrikerUpdate {
 /// Switches for experiments with the program itself; no strike needs them.
 struct StudyOptions {
   VectorOperationsKind vector_operations = VectorOperationsKind::project;
-  MassSolverKind mass_solver = MassSolverKind::banded;
   bool pair_detection = true;  ///< look for contacts that open and close again within one step
   bool beyond_critical =
       false;  ///< allows a fixed step above the stability limit, to study the failure

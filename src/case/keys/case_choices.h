@@ -107,17 +107,11 @@ inline constexpr Named<StopRule> choices<StopRule>[] = {
 };
 
 template <>
-inline constexpr Named<MassSolverKind> choices<MassSolverKind>[] = {
-    {MassSolverKind::banded, "banded", "own banded factorisation"},
-    {MassSolverKind::klu, "klu", "SuiteSparse's general sparse factorisation"},
-};
-
-template <>
 inline constexpr Named<EventHandling> choices<EventHandling>[] = {
     {EventHandling::located, "located", "steps end at events"},
     {EventHandling::interpolated, "interpolated", "event times are interpolated within steps"},
     {EventHandling::library, "library",
-     "contact events by the root-finding of SUNDIALS: erk, dirk, imex, adams, bdf"},
+     "contact events by the root-finding of SUNDIALS: erk, dirk, adams, bdf"},
 };
 
 template <>

@@ -408,7 +408,6 @@ std::vector<CaseKey> make_case_keys() {
     row("output.shape_points", "", between("from 5 to 200000", 5, 200000), "most points of a shape, along the whole beam", as_in_case, AT(output.shape_points)),
 
     row("study.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(study.vector_operations)),
-    row("study.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(study.mass_solver)),
     row("study.pair_detection", "", any_value, "search for contacts that open and close within one step", as_in_case, AT(study.pair_detection)),
     row("study.beyond_critical", "", any_value, "allows a fixed step above the stability limit, to study how runs fail there", as_in_case, AT(study.beyond_critical)),
     row("study.striker_update", "", any_value, "how central differences advance the striker over a step", as_in_case, AT(study.striker_update)),

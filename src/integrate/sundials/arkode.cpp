@@ -34,8 +34,6 @@ constexpr double fastest_fall_of_rate = 1e-3;
 // enough, and stages are wrong by far more than the tolerance. So any change requires a new matrix.
 constexpr double largest_change_of_gamma = 1e-12;
 
-using Part = MechanicalSystem::Part;
-
 const LibraryCalls erk_calls = SUBIMPACT_LIBRARY_CALLS(ERKStep, ARK, Reset, Evolve, nullptr);
 const LibraryCalls ark_calls =
     SUBIMPACT_LIBRARY_CALLS(ARKStep, ARK, Reset, Evolve, ARKStepGetNonlinSolvStats);
@@ -62,22 +60,15 @@ class ErkSolver final : public SolverFrame {
 
 class ArkSolver final : public SolverFrame {
  public:
-  ArkSolver(MechanicalSystem& system, const IntegratorOptions& options, ContextPointer shared,
-            Part implicit_part)
+  ArkSolver(MechanicalSystem& system, const IntegratorOptions& options, ContextPointer shared)
       : SolverFrame(system, options, ark_calls, std::move(shared)),
         system_(system),
-        implicit_part_(implicit_part),
-        matrices_(system, implicit_part, vector(), context()) {
-    const ButcherTablePair tables = implicit_part == Part::all
-                                        ? ButcherTablePair{load_dirk_table(options.table), nullptr}
-                                        : load_imex_tables(options.table);
-    const ARKRhsFn explicit_rate = implicit_part == Part::all ? nullptr : rate_of_rest;
-    own(ARKStepCreate(explicit_rate, implicit_rate, 0.0, vector(), context()));
+        matrices_(system, vector(), context()) {
+    const ButcherTablePointer table = load_dirk_table(options.table);
+    own(ARKStepCreate(nullptr, implicit_rate, 0.0, vector(), context()));
     set_step_control(options);
     void* const ark = memory();
-    check(ARKStepSetTables(ark, tables.implicit->q, tables.implicit->p, tables.implicit.get(),
-                           tables.explicit_part.get()),
-          "SetTables");
+    check(ARKStepSetTables(ark, table->q, table->p, table.get(), nullptr), "SetTables");
     check(
         ARKStepSetMassLinearSolver(ark, matrices_.mass_solver(), matrices_.mass_matrix(), SUNFALSE),
         "SetMassLinearSolver");
@@ -118,19 +109,7 @@ class ArkSolver final : public SolverFrame {
  private:
   static int implicit_rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
     auto& self = static_cast<ArkSolver&>(of(frame));
-    return self.write_rate(
-        t, y, rate, [&](auto in, auto out) { self.system_.force(in, self.implicit_part_, out); });
-  }
-
-  static int rate_of_rest(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
-    auto& self = static_cast<ArkSolver&>(of(frame));
-    const std::size_t n = self.n_positions_;
-    const auto out = entries(rate);
-    return self.guarded([&] {
-      std::fill_n(out.begin(), n, 0.0);
-      self.system_.set_time(t);
-      self.system_.force(entries(y), Part::rest, out.subspan(n));
-    });
+    return self.write_rate(t, y, rate, [&](auto in, auto out) { self.system_.force(in, out); });
   }
 
   static int mass(sunrealtype, SUNMatrix matrix, void* frame, N_Vector, N_Vector, N_Vector) {
@@ -147,7 +126,6 @@ class ArkSolver final : public SolverFrame {
   }
 
   MechanicalSystem& system_;
-  Part implicit_part_;
   BlockSystem matrices_;
 };
 
@@ -157,9 +135,9 @@ class ArkSolver final : public SolverFrame {
 template <class Solver>
 class OneStepIntegrator final : public Integrator {
  public:
-  template <class Ode, class... More>
-  OneStepIntegrator(Ode& ode, const IntegratorOptions& options, const More&... more)
-      : OneStepIntegrator(make_context(), ode, options, more...) {}
+  template <class Ode>
+  OneStepIntegrator(Ode& ode, const IntegratorOptions& options)
+      : OneStepIntegrator(make_context(), ode, options) {}
 
   void restart(double t, const State& y) override {
     main_.reset(t, y);
@@ -207,12 +185,11 @@ class OneStepIntegrator final : public Integrator {
   }
 
  private:
-  template <class Ode, class... More>
-  OneStepIntegrator(const ContextPointer& context, Ode& ode, const IntegratorOptions& options,
-                    const More&... more)
+  template <class Ode>
+  OneStepIntegrator(const ContextPointer& context, Ode& ode, const IntegratorOptions& options)
       : has_fixed_steps_(options.fixed_step),
-        main_(ode, options, context, more...),
-        partial_(ode, as_partial(options), context, more...) {}
+        main_(ode, options, context),
+        partial_(ode, as_partial(options), context) {}
 
   static IntegratorOptions as_partial(IntegratorOptions options) {
     options.fixed_step = options.fixed_step.value_or(1.0);  // set anew before every use
@@ -234,12 +211,7 @@ std::unique_ptr<Integrator> make_arkode_erk(SecondOrderOde& ode, const Integrato
 
 std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system,
                                              const IntegratorOptions& options) {
-  return std::make_unique<OneStepIntegrator<ArkSolver>>(system, options, Part::all);
-}
-
-std::unique_ptr<Integrator> make_arkode_imex(MechanicalSystem& system,
-                                             const IntegratorOptions& options) {
-  return std::make_unique<OneStepIntegrator<ArkSolver>>(system, options, Part::stiff);
+  return std::make_unique<OneStepIntegrator<ArkSolver>>(system, options);
 }
 
 }  // namespace subimpact

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <stdexcept>
 
 #include "integrate/stability.h"
@@ -17,15 +16,17 @@ namespace {
 
 using Complex = std::complex<double>;
 
+template <class Id>
 struct Entry {
   const char* name;
-  ARKODE_ERKTableID explicit_part;  // ARKODE_ERK_NONE: there is none, or it is built here
+  Id id;
   const char* note;
-  ARKODE_DIRKTableID implicit = ARKODE_DIRK_NONE;
 };
+using ExplicitEntry = Entry<ARKODE_ERKTableID>;  // ARKODE_ERK_NONE: built here
+using ImplicitEntry = Entry<ARKODE_DIRKTableID>;
 
 // clang-format off
-const Entry explicit_entries[] = {
+constexpr ExplicitEntry explicit_entries[] = {
     {"dop853", ARKODE_ERK_NONE, "Hairer, Norsett and Wanner, 8(5): fewest evaluations on an elastic beam"},
     {"dormand-prince", ARKODE_DORMAND_PRINCE_7_4_5, "Dormand and Prince 1980, 5(4): sound at every accuracy"},
     {"bogacki-shampine", ARKODE_BOGACKI_SHAMPINE_4_2_3, "Bogacki and Shampine 1989, 3(2): low accuracy"},
@@ -37,20 +38,20 @@ const Entry explicit_entries[] = {
 
 // "ESDIRK": explicit first stage, one diagonal entry throughout. All are A-stable; "stiffly
 // accurate" ones (whose last stage is the step's end) are L-stable.
-const Entry implicit_entries[] = {
-    {"esdirk547", ARKODE_ERK_NONE, "Kennedy and Carpenter 2019, ESDIRK5(4)7L[2]SA", ARKODE_ESDIRK547L2SA_7_4_5},
-    {"esdirk437", ARKODE_ERK_NONE, "Kennedy and Carpenter 2019, ESDIRK4(3)7L[2]SA: least damping of its order", ARKODE_ESDIRK437L2SA_7_3_4},
-    {"esdirk436", ARKODE_ERK_NONE, "Kennedy and Carpenter 2016, ESDIRK4(3)6L[2]SA", ARKODE_ESDIRK436L2SA_6_3_4},
-    {"esdirk325", ARKODE_ERK_NONE, "Kennedy and Carpenter 2016, ESDIRK3(2)5L[2]SA", ARKODE_ESDIRK325L2SA_5_2_3},
-    {"ark437", ARKODE_ARK437L2SA_ERK_7_3_4, "Kennedy and Carpenter 2019, ARK4(3)7L[2]SA", ARKODE_ARK437L2SA_DIRK_7_3_4},
-    {"ark436", ARKODE_ARK436L2SA_ERK_6_3_4, "Kennedy and Carpenter 2003, ARK4(3)6L[2]SA", ARKODE_ARK436L2SA_DIRK_6_3_4},
-    {"ark548", ARKODE_ARK548L2SA_ERK_8_4_5, "Kennedy and Carpenter 2003, ARK5(4)8L[2]SA", ARKODE_ARK548L2SA_DIRK_8_4_5},
-    {"ark548b", ARKODE_ARK548L2SAb_ERK_8_4_5, "Kennedy and Carpenter 2019, ARK5(4)8L[2]SAb", ARKODE_ARK548L2SAb_DIRK_8_4_5},
-    {"ark324", ARKODE_ARK324L2SA_ERK_4_2_3, "Kennedy and Carpenter 2003, ARK3(2)4L[2]SA", ARKODE_ARK324L2SA_DIRK_4_2_3},
-    {"kvaerno-7-4-5", ARKODE_ERK_NONE, "Kvaerno 2004, ESDIRK5/4", ARKODE_KVAERNO_7_4_5},
-    {"sdirk-5-3-4", ARKODE_ERK_NONE, "Hairer and Wanner, SDIRK4: five implicit stages", ARKODE_SDIRK_5_3_4},
-    {"trbdf2", ARKODE_ERK_NONE, "Bank et al. 1985: trapezoidal rule, then BDF2", ARKODE_TRBDF2_3_3_2},
-    {"sdirk-2-1-2", ARKODE_ERK_NONE, "two implicit stages: the cheapest step", ARKODE_SDIRK_2_1_2},
+constexpr ImplicitEntry implicit_entries[] = {
+    {"esdirk547", ARKODE_ESDIRK547L2SA_7_4_5, "Kennedy and Carpenter 2019, ESDIRK5(4)7L[2]SA"},
+    {"esdirk437", ARKODE_ESDIRK437L2SA_7_3_4, "Kennedy and Carpenter 2019, ESDIRK4(3)7L[2]SA: least damping of its order"},
+    {"esdirk436", ARKODE_ESDIRK436L2SA_6_3_4, "Kennedy and Carpenter 2016, ESDIRK4(3)6L[2]SA"},
+    {"esdirk325", ARKODE_ESDIRK325L2SA_5_2_3, "Kennedy and Carpenter 2016, ESDIRK3(2)5L[2]SA"},
+    {"ark437", ARKODE_ARK437L2SA_DIRK_7_3_4, "Kennedy and Carpenter 2019, ARK4(3)7L[2]SA"},
+    {"ark436", ARKODE_ARK436L2SA_DIRK_6_3_4, "Kennedy and Carpenter 2003, ARK4(3)6L[2]SA"},
+    {"ark548", ARKODE_ARK548L2SA_DIRK_8_4_5, "Kennedy and Carpenter 2003, ARK5(4)8L[2]SA"},
+    {"ark548b", ARKODE_ARK548L2SAb_DIRK_8_4_5, "Kennedy and Carpenter 2019, ARK5(4)8L[2]SAb"},
+    {"ark324", ARKODE_ARK324L2SA_DIRK_4_2_3, "Kennedy and Carpenter 2003, ARK3(2)4L[2]SA"},
+    {"kvaerno-7-4-5", ARKODE_KVAERNO_7_4_5, "Kvaerno 2004, ESDIRK5/4"},
+    {"sdirk-5-3-4", ARKODE_SDIRK_5_3_4, "Hairer and Wanner, SDIRK4: five implicit stages"},
+    {"trbdf2", ARKODE_TRBDF2_3_3_2, "Bank et al. 1985: trapezoidal rule, then BDF2"},
+    {"sdirk-2-1-2", ARKODE_SDIRK_2_1_2, "two implicit stages: the cheapest step"},
 };
 // clang-format on
 
@@ -150,39 +151,27 @@ bool ends_with_next_first(const ARKodeButcherTableMem& table) {
   return true;
 }
 
-// The named one of these entries, or of the pairs among them; the first for an empty name.
-const Entry& find(std::span<const Entry> entries, bool pair, const std::string& name,
-                  const char* what) {
+// The named one of these entries; the first for an empty name.
+template <class Entry, std::size_t n>
+const Entry& find(const Entry (&entries)[n], const std::string& name) {
   for (const Entry& entry : entries) {
-    if (pair && entry.explicit_part == ARKODE_ERK_NONE) continue;
     if (name.empty() || entry.name == name) return entry;
   }
-  throw std::invalid_argument("unknown " + std::string(what) + " '" + name + "'");
+  throw std::invalid_argument("unknown Runge-Kutta table '" + name + "'");
 }
 
-ButcherTablePointer checked(ARKodeButcherTable table, const Entry& entry) {
-  if (!table) throw std::runtime_error(std::string("SUNDIALS has no table ") + entry.name);
+ButcherTablePointer checked(ARKodeButcherTable table, const char* name) {
+  if (!table) throw std::runtime_error(std::string("SUNDIALS has no table ") + name);
   return ButcherTablePointer(table);
 }
 
-ButcherTablePointer explicit_table(const Entry& entry) {
-  return checked(ARKodeButcherTable_LoadERK(entry.explicit_part), entry);
-}
-
-ButcherTablePointer implicit_table(const Entry& entry) {
-  return checked(ARKodeButcherTable_LoadDIRK(entry.implicit), entry);
-}
-
-std::vector<CoefficientTable> list(std::span<const Entry> entries, bool pairs = false) {
+// An explicit table ends on the next step's first stage, which costs nothing.
+template <class Entry, std::size_t n, class Load>
+std::vector<CoefficientTable> list(const Entry (&entries)[n], Load load, int n_free) {
   std::vector<CoefficientTable> list;
   for (const Entry& entry : entries) {
-    if (pairs && entry.explicit_part == ARKODE_ERK_NONE) continue;
-    const bool is_explicit = entry.implicit == ARKODE_DIRK_NONE;
-    const ButcherTablePointer table =
-        is_explicit ? load_explicit_table(entry.name) : implicit_table(entry);
-    // An explicit one ends on the next step's first stage, which costs nothing.
-    list.push_back(
-        {entry.name, table->q, table->p, table->stages - (is_explicit ? 1 : 0), entry.note});
+    const ButcherTablePointer table = load(entry.name);
+    list.push_back({entry.name, table->q, table->p, table->stages - n_free, entry.note});
   }
   return list;
 }
@@ -203,34 +192,27 @@ Complex stability(const ARKodeButcherTableMem& table, Complex z) {
 }  // namespace
 
 const std::vector<CoefficientTable>& explicit_tables() {
-  static const std::vector<CoefficientTable> tables = list(explicit_entries);
+  static const std::vector<CoefficientTable> tables =
+      list(explicit_entries, load_explicit_table, 1);
   return tables;
 }
 
 const std::vector<CoefficientTable>& dirk_tables() {
-  static const std::vector<CoefficientTable> tables = list(implicit_entries);
-  return tables;
-}
-
-const std::vector<CoefficientTable>& imex_tables() {
-  static const std::vector<CoefficientTable> tables = list(implicit_entries, true);
+  static const std::vector<CoefficientTable> tables = list(implicit_entries, load_dirk_table, 0);
   return tables;
 }
 
 ButcherTablePointer load_explicit_table(const std::string& name) {
-  const Entry& entry = find(explicit_entries, false, name, "explicit Runge-Kutta table");
-  ButcherTablePointer table =
-      entry.explicit_part == ARKODE_ERK_NONE ? dop853() : explicit_table(entry);
+  const ExplicitEntry& entry = find(explicit_entries, name);
+  ButcherTablePointer table = entry.id == ARKODE_ERK_NONE
+                                  ? dop853()
+                                  : checked(ARKodeButcherTable_LoadERK(entry.id), entry.name);
   return ends_with_next_first(*table) ? std::move(table) : with_end_as_last_stage(*table);
 }
 
 ButcherTablePointer load_dirk_table(const std::string& name) {
-  return implicit_table(find(implicit_entries, false, name, "implicit Runge-Kutta table"));
-}
-
-ButcherTablePair load_imex_tables(const std::string& name) {
-  const Entry& entry = find(implicit_entries, true, name, "pair of Runge-Kutta tables");
-  return {implicit_table(entry), explicit_table(entry)};
+  const ImplicitEntry& entry = find(implicit_entries, name);
+  return checked(ARKodeButcherTable_LoadDIRK(entry.id), entry.name);
 }
 
 Complex explicit_stability(const std::string& table, Complex z) {

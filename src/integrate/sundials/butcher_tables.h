@@ -16,15 +16,7 @@ using ButcherTablePointer = Owned<ARKodeButcherTable, ARKodeButcherTable_Free>;
 /// empty name. Throws std::invalid_argument for a name that is not among them.
 ButcherTablePointer load_explicit_table(const std::string& name);
 
-/// The named table of dirk_tables(), likewise. Throws std::invalid_argument for any other name.
+/// The named table of dirk_tables(), likewise.
 ButcherTablePointer load_dirk_table(const std::string& name);
-
-struct ButcherTablePair {
-  ButcherTablePointer implicit;
-  ButcherTablePointer explicit_part;  // none for methods that are implicit throughout
-};
-
-/// The named pair of imex_tables(), likewise. Throws std::invalid_argument for any other name.
-ButcherTablePair load_imex_tables(const std::string& name);
 
 }  // namespace subimpact

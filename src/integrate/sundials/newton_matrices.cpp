@@ -5,20 +5,19 @@
 
 namespace subimpact {
 
-NewtonMatrices::NewtonMatrices(MechanicalSystem& system, MechanicalSystem::Part part)
+NewtonMatrices::NewtonMatrices(MechanicalSystem& system)
     : system_(system),
       pattern_(system.pattern()),
       mass_(pattern_.n_entries()),
       stiffness_(pattern_.n_entries()),
-      damping_(system.depends_on_velocity() ? pattern_.n_entries() : 0),
-      part_(part) {
+      damping_(system.depends_on_velocity() ? pattern_.n_entries() : 0) {
   system.mass_entries(mass_);
 }
 
 void NewtonMatrices::update(std::span<const double> y, bool keep_tangents, double gamma) {
   if (!keep_tangents) {
-    system_.stiffness_entries(y, part_, stiffness_);
-    if (!damping_.empty()) system_.damping_entries(y, part_, damping_);
+    system_.stiffness_entries(y, stiffness_);
+    if (!damping_.empty()) system_.damping_entries(y, damping_);
     ++tangent_updates_;
   }
   assemble(gamma);
@@ -32,9 +31,8 @@ void NewtonMatrices::add_counts(WorkCounts& counts) const {
   counts.pattern_analyses += analyses_;
 }
 
-BlockSystem::BlockSystem(MechanicalSystem& system, MechanicalSystem::Part part, N_Vector like,
-                         SUNContext context)
-    : NewtonMatrices(system, part) {
+BlockSystem::BlockSystem(MechanicalSystem& system, N_Vector like, SUNContext context)
+    : NewtonMatrices(system) {
   const std::size_t n = pattern_.size();
   const bool damped = !damping_.empty();
   SparsityPattern newton;
@@ -100,7 +98,7 @@ void BlockSystem::assemble(double gamma) {
 }
 
 ReducedNewton::ReducedNewton(MechanicalSystem& system, SUNContext context)
-    : NewtonMatrices(system, MechanicalSystem::Part::all),
+    : NewtonMatrices(system),
       right_side_(make_vector(pattern_.size(), context, VectorOperations::project)),
       velocities_(make_vector(pattern_.size(), context, VectorOperations::project)),
       matrix_(make_sparse_matrix(pattern_, context)),

@@ -11,8 +11,7 @@ namespace subimpact {
 /// matrices of Newton's method.
 class NewtonMatrices {
  public:
-  /// `part` of the force is the implicit one.
-  NewtonMatrices(MechanicalSystem& system, MechanicalSystem::Part part);
+  explicit NewtonMatrices(MechanicalSystem& system);
   NewtonMatrices(const NewtonMatrices&) = delete;
   NewtonMatrices& operator=(const NewtonMatrices&) = delete;
 
@@ -33,7 +32,6 @@ class NewtonMatrices {
   LinearSolverPointer klu_;      // of the Newton matrix
 
  private:
-  MechanicalSystem::Part part_;
   long tangent_updates_ = 0;
   long assemblies_ = 0;
   long analyses_ = 0;
@@ -47,8 +45,7 @@ class NewtonMatrices {
 class BlockSystem final : public NewtonMatrices {
  public:
   /// `like` is a vector of the state's size.
-  BlockSystem(MechanicalSystem& system, MechanicalSystem::Part part, N_Vector like,
-              SUNContext context);
+  BlockSystem(MechanicalSystem& system, N_Vector like, SUNContext context);
 
   SUNMatrix mass_matrix() const { return mass_matrix_.get(); }
   SUNLinearSolver mass_solver() const { return mass_solver_.get(); }

@@ -257,8 +257,7 @@ bool in_modes(const Options& options, const BeamMesh& mesh, const BeamDamping& d
   if (modes != MethodDescriptor::Modes::where_cheaper) {
     return modes == MethodDescriptor::Modes::always;
   }
-  return damping.ratio > 0.0 ||
-         (mesh.prefers_modes() && options.study.mass_solver == MassSolverKind::banded);
+  return damping.ratio > 0.0 || mesh.prefers_modes();
 }
 
 bool modes_are_left_out(const Options& options, const StruckBeam& beam) {

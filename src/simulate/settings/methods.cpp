@@ -91,16 +91,6 @@ std::vector<MethodDescriptor> make_descriptors() {
        .audit_interval = 4,
        .tables = dirk_tables,
        .make = make_arkode_dirk},
-      {.kind = Method::imex,
-       .name = "imex",
-       .note = "implicit for bending, explicit for the contact force (ARKODE): dirk with simpler "
-               "systems",
-       .implicit = true,
-       .sundials = true,
-       .damping = Damping::any,
-       .audit_interval = 4,
-       .tables = imex_tables,
-       .make = make_arkode_imex},
       // To a multistep method a restart at each reversal costs more than the reversal's error.
       {.kind = Method::adams,
        .name = "adams",

@@ -170,11 +170,9 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
 }
 
 // The rotary inertia of a beam much thicker than long outweighs its mass by more than 16 digits.
-std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const Options& options,
-                                             const BeamMesh& mesh) {
+std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const BeamMesh& mesh) {
   if (std::unique_ptr<MassSolver> own = mesh.make_mass_solver()) return own;
   try {
-    if (options.study.mass_solver == MassSolverKind::klu) return make_klu_mass_solver(mesh.mass());
     return std::make_unique<BandedSolver>(mesh.mass());
   } catch (const std::exception&) {
     refuse("beam.thickness",
@@ -216,7 +214,7 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
       in_modes(options, *mesh, problem.beam.damping)) {
     mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
   }
-  std::unique_ptr<MassSolver> solver = make_mass_solver(problem, options, *mesh);
+  std::unique_ptr<MassSolver> solver = make_mass_solver(problem, *mesh);
   Loads loads(*mesh, problem.beam, problem.gravity);
   std::optional<Tension> tension;
   if (problem.beam.stretches()) tension = make_tension(*mesh, problem.beam, sections.can_yield());

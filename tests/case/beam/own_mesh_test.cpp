@@ -159,7 +159,7 @@ std::vector<Case> different_cases() {
   std::vector<Case> cases;
   for (const Method method :
        {Method::erk, Method::nystrom, Method::exponential, Method::central_difference,
-        Method::adams, Method::bdf, Method::dirk, Method::imex}) {
+        Method::adams, Method::bdf, Method::dirk}) {
     for (const MeshKind mesh : {MeshKind::cells, MeshKind::hermite}) {
       Case input = paper_run(SectionKind::exact, 3e-4, 51, method);
       input.model.mesh = mesh;

@@ -22,7 +22,6 @@ const Strike strikes[] = {
     {"exponential", Method::exponential, SectionKind::elastic, {}},
     {"exponential_yielding", Method::exponential, SectionKind::exact, {}},
     {"dirk", Method::dirk, SectionKind::elastic, {}},
-    {"imex", Method::imex, SectionKind::elastic, {}},
     {"adams", Method::adams, SectionKind::elastic, {}},
     {"bdf", Method::bdf, SectionKind::elastic, {}},
     {"central_difference", Method::central_difference, SectionKind::exact, {}},

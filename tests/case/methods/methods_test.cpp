@@ -29,7 +29,6 @@ class AMethod : public testing::TestWithParam<Setting> {};
 
 const Setting settings[] = {{"dirk", Method::dirk, {}, {}, 1e-6, 2e-3},
                             {"dirk_esdirk437", Method::dirk, "esdirk437", {}, 1e-6, 2e-2},
-                            {"imex", Method::imex, {}, {}, 1e-6, 2e-2},
                             {"adams", Method::adams, {}, {}, 1e-8, 5e-4},
                             {"bdf", Method::bdf, {}, {}, 1e-8, 5e-4},
                             {"bdf2", Method::bdf, {}, 2, 1e-6, 0.2}};
@@ -65,9 +64,8 @@ TEST_P(AMethod, GoesThroughAYieldingBeam) {
   ASSERT_EQ(result.sub_impacts.size(), 3u);
   EXPECT_NEAR(end_us(result.sub_impacts[0]), reference_table("seed_exact")[0].end_us,
               20.0 * setting.bound_us);
-  EXPECT_EQ(result.used.reversals, setting.method == Method::dirk || setting.method == Method::imex
-                                       ? ReversalHandling::located
-                                       : ReversalHandling::step_end);
+  EXPECT_EQ(result.used.reversals, setting.method == Method::dirk ? ReversalHandling::located
+                                                                  : ReversalHandling::step_end);
 }
 
 TEST(ImplicitMethods, ConserveEnergyToTheirTolerance) {
@@ -90,7 +88,7 @@ TEST(ImplicitMethods, TakeAFixedStepAboveTheCriticalOne) {
 // Fixed steps of multistep methods, root-finding of methods that are not of SUNDIALS, orders and
 // tables of other methods.
 TEST(Methods, RefuseByItsKeyWhatTheyDoNotHave) {
-  const std::string library = "allowed: \"located\"|erk, dirk, imex, adams, bdf";
+  const std::string library = "allowed: \"located\"|erk, dirk, adams, bdf";
   const std::tuple<Method, const char*, KeyValue, std::string> refused[] = {
       {Method::adams, "solver.step", 1e-7, "max_step"},
       {Method::bdf, "solver.step", 1e-7, "max_step"},
@@ -99,7 +97,7 @@ TEST(Methods, RefuseByItsKeyWhatTheyDoNotHave) {
       {Method::central_difference, "solver.events", "library", library},
       {Method::bdf, "solver.max_order", 6, ""},
       {Method::dirk, "solver.max_order", 3, ""},
-      {Method::imex, "solver.table", "esdirk547", ""},
+      {Method::dirk, "solver.table", "dop853", ""},
       {Method::bdf, "solver.table", "esdirk547", ""}};
   for (const auto& [method, key, value, words] : refused) {
     SCOPED_TRACE(to_string(method));

@@ -9,7 +9,6 @@
 namespace subimpact {
 namespace {
 
-using Part = MechanicalSystem::Part;
 constexpr double unit = 1.56337e-5;  // yield indentation, m
 
 struct Contact {
@@ -24,7 +23,7 @@ class Tangent : public testing::TestWithParam<Contact> {
  protected:
   std::vector<double> force(StruckBeam& beam, const State& y) {
     std::vector<double> result(beam.n_positions());
-    beam.force({y.data(), result.size()}, Part::all, result);
+    beam.force({y.data(), result.size()}, result);
     return result;
   }
 
@@ -33,7 +32,7 @@ class Tangent : public testing::TestWithParam<Contact> {
     const std::size_t n = beam.n_positions();
     const SparsityPattern& pattern = beam.pattern();
     std::vector<double> stiffness(pattern.n_entries());
-    beam.stiffness_entries({y.data(), n}, Part::all, stiffness);
+    beam.stiffness_entries({y.data(), n}, stiffness);
     double worst = 0.0;
     for (std::size_t j = 0; j < n; ++j) {
       const double h = 1e-12;

@@ -166,7 +166,6 @@ Outcome check_contact_tests() {
                  {Method::erk, "erk"},
                  {Method::exponential, "exponential"},
                  {Method::dirk, "dirk"},
-                 {Method::imex, "imex"},
                  {Method::adams, "adams"},
                  {Method::bdf, "bdf"},
                  {Method::central_difference, "central-difference"}};

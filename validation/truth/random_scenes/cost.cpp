@@ -45,7 +45,7 @@ struct StepCost {
 StepCost step_cost(const SolverOptions& solver) {
   const double rtol = solver.rtol;
   if (const MethodTable* table = table_of(solver)) {
-    const bool implicit = solver.method == Method::dirk || solver.method == Method::imex;
+    const bool implicit = solver.method == Method::dirk;
     const double gain = solver.method == Method::nystrom ? 2.0 : 1.0;
     return {0.11 * table->evaluations * gain *
                 std::pow(rtol / 1e-8, 1.0 / (table->embedded_order + 1.0)),

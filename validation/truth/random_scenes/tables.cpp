@@ -17,7 +17,7 @@ const char* const outcomes[] = {"completed",     "inaccurate",    "unstable",   
                                 "solver failed", "left validity", "wall clock", "stood still",
                                 "refused",       "exception",     "crashed",    "hung"};
 const char* const methods[] = {
-    "central-difference", "erk", "nystrom", "exponential", "dirk", "imex", "adams", "bdf"};
+    "central-difference", "erk", "nystrom", "exponential", "dirk", "adams", "bdf"};
 const char* const bands[] = {"looser than 1e-4", "1e-4 to 1e-6", "1e-6 and tighter", "fixed steps"};
 
 bool is_count(const Record& r) {

@@ -229,7 +229,7 @@ Outcome check_paper_as_computed() {
       "Every method on the paper's mesh, at rtol 1e-8 or, central differences, at 0.1 us.\n\n" +
       runs_head();
   for (const char* method :
-       {"central-difference", "erk", "nystrom", "exponential", "dirk", "imex", "adams", "bdf"}) {
+       {"central-difference", "erk", "nystrom", "exponential", "dirk", "adams", "bdf"}) {
     const Result result = by_method(method);
     outcome.rows.push_back({fmt::format("all times by {}: largest difference, in units of the last "
                                         "printed digit",
