@@ -274,8 +274,8 @@ std::string integration_section(const Case& input, const ResolvedSettings& used)
 // validation/cost/run_cost, and of what the program does besides.
 constexpr double shortest_unit = 1e-9, longest_unit = 4e-9;
 constexpr double seconds_beside[] = {0.01, 0.2};
-// Of the program with its libraries and files, bytes.
-constexpr double memory_beside = 30e6;
+// Of libraries, files and what earlier runs leave, bytes.
+constexpr double memory_beside = 16e6;
 
 std::string cost_section(const Case& first, const ResolvedSettings& used, const WorkRange& work) {
   const auto rough = [](double seconds) {
@@ -284,6 +284,9 @@ std::string cost_section(const Case& first, const ResolvedSettings& used, const 
   std::string time = rough(shortest_unit * work.least + seconds_beside[0]);
   time += work.most ? " to " + rough(longest_unit * *work.most + seconds_beside[1])
                     : " or more, since the method chooses its steps";
+  const auto n = static_cast<double>(used.n_unknowns);
+  // Natural modes may take another matrix, which is not stated.
+  const double model = used.memory + (used.decomposition > 0.0 ? sizeof(double) * n * n : 0.0);
   std::vector<std::string> without;
   if (first.strikes > 1) without.push_back("strikes after the first, which each take as long");
   if (!first.scatter.empty()) without.emplace_back("the runs that show the scatter");
@@ -291,9 +294,9 @@ std::string cost_section(const Case& first, const ResolvedSettings& used, const 
          line("time",
               fmt::format("{} of a processor, the longer the more accuracy takes{}{}", time,
                           without.empty() ? "" : "; without ", fmt::join(without, " and "))) +
-         line("memory", fmt::format("about {:.0f} MB, and {:.2g} MB for each run beside it, on the "
-                                    "first mesh",
-                                    MB * (memory_beside + used.memory), MB * used.memory));
+         line("memory", fmt::format("about {:.0f} MB on the first mesh, and {:.0f} MB for each run "
+                                    "beside it",
+                                    MB * (memory_beside + model), MB * model));
 }
 
 }  // namespace

@@ -213,7 +213,7 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
   yielding.scene.contact.yield_pressure = 4e8;
   yielding.scene.striker.nose = NoseShape::sphere;
   yielding.scene.beam.pivot = 0.5;
-  yielding.at_rest = true;
+  yielding.at_rest = false;
   yielding.scene.beam.material = "S355";
   Case line = sheared;
   Contact& contact = line.scene.contact;
