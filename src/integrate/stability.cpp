@@ -1,13 +1,12 @@
 #include "integrate/stability.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
 #include "integrate/nystrom.h"
+#include "numerics/dense.h"
 
 namespace subimpact {
 
@@ -59,7 +58,7 @@ double bdf_growth(int order, double y) {
     companion(0, j) = -alpha[static_cast<std::size_t>(j) + 1] / Complex(alpha[0], -y);
     if (j + 1 < order) companion(j + 1, j) = 1.0;
   }
-  return companion.eigenvalues().cwiseAbs().maxCoeff();
+  return spectral_radius(companion);
 }
 
 }  // namespace subimpact

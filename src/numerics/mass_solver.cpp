@@ -1,6 +1,6 @@
 #include "numerics/mass_solver.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cassert>
 #include <optional>

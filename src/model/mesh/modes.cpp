@@ -1,12 +1,13 @@
 #include "model/mesh/modes.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "numerics/bracketed_root.h"
+#include "numerics/dense.h"
 #include "numerics/lanes.h"
 
 namespace subimpact {
@@ -249,18 +250,18 @@ class SlowMotionByBands {
         column(x, k)[i] = std::cos(static_cast<double>((i + 1) * (i + k + 1)));
       }
     }
-    Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz;
+    EigenPairs ritz;
     for (int iteration = 0; iteration < n_iterations; ++iteration) {
       for (std::size_t k = 0; k < m; ++k) mesh_.mass().multiply(column(x, k), column(inertia, k));
       x = inertia;
       for (std::size_t k = 0; k < m; ++k) factor_->solve_as_factor(column(x, k));
       const Matrix stiffness = x.transpose() * inertia;  // X^T (K + s Mass) X
       for (std::size_t k = 0; k < m; ++k) mesh_.mass().multiply(column(x, k), column(inertia, k));
-      ritz.compute(stiffness, x.transpose() * inertia);
-      x *= ritz.eigenvectors();
+      ritz = eigen_pairs(stiffness, x.transpose() * inertia);
+      x *= ritz.vectors;
     }
     for (std::size_t k = 0; k < n_modes; ++k) {
-      const double squared = ritz.eigenvalues()[index(k)] - shift_;
+      const double squared = ritz.values[index(k)] - shift_;
       found.frequencies.push_back(squared > rigid_share * shift_ ? std::sqrt(squared) : 0.0);
       const std::span<double> phi = column(x, k);
       found.shapes.emplace_back(phi.begin(), phi.end());

@@ -1,9 +1,10 @@
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "model/mesh/modes.h"
+#include "numerics/dense.h"
 #include "numerics/lanes.h"
 
 namespace subimpact {
@@ -136,12 +137,6 @@ double correct_shapes(const BeamMesh& mesh, double bending_stiffness, Eigen::Mat
   return largest;
 }
 
-template <class Solver>
-void check(const Solver& solver) {
-  if (solver.info() == Eigen::Success) return;
-  throw std::runtime_error("natural modes: the eigenvalue decomposition did not converge");
-}
-
 // K phi = omega^2 Mass phi. A diagonal mass makes it a standard problem, at some half the cost.
 Eigen::MatrixXd shapes_of(Eigen::MatrixXd stiffness, const BandedMatrix& mass) {
   const Eigen::Index n = stiffness.rows();
@@ -152,14 +147,9 @@ Eigen::MatrixXd shapes_of(Eigen::MatrixXd stiffness, const BandedMatrix& mass) {
     Eigen::VectorXd scale(n);
     for (Eigen::Index i = 0; i < n; ++i) scale(i) = 1.0 / std::sqrt(entry(i, i));
     stiffness = scale.asDiagonal() * stiffness * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness);
-    check(solver);
-    return scale.asDiagonal() * solver.eigenvectors();
+    return scale.asDiagonal() * eigen_pairs(stiffness).vectors;
   }
-  const Eigen::MatrixXd dense = Eigen::MatrixXd::NullaryExpr(n, n, entry);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, dense);
-  check(solver);
-  return solver.eigenvectors();
+  return eigen_pairs(stiffness, Eigen::MatrixXd::NullaryExpr(n, n, entry)).vectors;
 }
 
 Eigen::MatrixXd decomposed_shapes(const BeamMesh& mesh, double bending_stiffness) {

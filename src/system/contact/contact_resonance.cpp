@@ -1,9 +1,10 @@
 #include "system/contact/contact_resonance.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "numerics/dense.h"
 
 namespace subimpact {
 namespace {
@@ -91,13 +92,7 @@ double largest_eigenvalue(JoinedBodies& bodies) {
     previous_times_mass = std::exchange(times_mass, std::move(next_times_mass));
   }
   if (diagonal.empty()) return 0.0;
-  const auto size = static_cast<Eigen::Index>(diagonal.size());
-  beside.resize(diagonal.size());
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(diagonal.data(), size),
-                                Eigen::Map<Eigen::VectorXd>(beside.data(), size - 1),
-                                Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().maxCoeff();
+  return largest_eigenvalue(diagonal, beside);
 }
 
 }  // namespace

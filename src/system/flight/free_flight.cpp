@@ -1,6 +1,6 @@
 #include "system/flight/free_flight.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,11 +1,12 @@
 #include "model/mesh/hermite/hermite_elements.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "numerics/bracketed_root.h"
+#include "numerics/dense.h"
 #include "numerics/gauss.h"
 
 namespace subimpact {
@@ -164,10 +165,7 @@ double HermiteElement::highest_frequency_squared(const ElementRule& rule,
     const Eigen::Vector4d row(curvature(rule.of_curvature[g]).data());
     stiffness += bending_stiffness * rule.weights[g] * length * row * row.transpose();
   }
-  const Eigen::MatrixXd inertia = Eigen::Map<const Matrix4>(mass[0].data());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, inertia,
-                                                                         Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()(3);
+  return largest_eigenvalue(stiffness, Eigen::Map<const Matrix4>(mass[0].data()));
 }
 
 double ElementGrading::elements_within(double d) const {

@@ -1,11 +1,12 @@
 #include "model/mesh/shear/spectral_mesh.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "numerics/dense.h"
 #include "numerics/gauss.h"
 
 namespace subimpact {
@@ -410,9 +411,7 @@ double SpectralMesh::highest_frequency(double bending_stiffness) const {
       stiffness += weight * bending_stiffness * bend * bend.transpose() +
                    weight * shear_stiffness_per_length_ * shear * shear.transpose();
     }
-    const Eigen::SelfAdjointEigenSolver<decltype(stiffness)> solver(stiffness,
-                                                                    Eigen::EigenvaluesOnly);
-    highest = std::max(highest, solver.eigenvalues().maxCoeff());
+    highest = std::max(highest, largest_eigenvalue(stiffness));
   }
   return std::sqrt(highest);
 }

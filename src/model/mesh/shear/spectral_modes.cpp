@@ -1,4 +1,4 @@
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "model/mesh/modes.h"
 #include "model/mesh/shear/secular_equation.h"
 #include "model/mesh/shear/spectral_mesh.h"
+#include "numerics/dense.h"
 #include "numerics/gauss.h"
 
 // A chain of equal elements whose ends are pinned, or whose ends move but do not turn, has waves
@@ -93,10 +94,10 @@ void add_waves(const Chain& chain, std::size_t k, std::vector<Wave>& waves) {
   const Eigen::Matrix<double, n_values, n_own> odd = field.imag() * scale.asDiagonal();
   const Eigen::Matrix<double, n_own, n_own> of_even = chain.strains * even;
   const Eigen::Matrix<double, n_own, n_own> of_odd = chain.strains * odd;
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(of_even.transpose() * of_even +
-                                                     of_odd.transpose() * of_odd);
+  const Matrix shapes =
+      eigen_pairs(of_even.transpose() * of_even + of_odd.transpose() * of_odd).vectors;
   for (int j = 0; j < n_own; ++j) {
-    const Own y = solver.eigenvectors().col(j);
+    const Own y = shapes.col(j);
     const double square = (of_even * y).squaredNorm() + (of_odd * y).squaredNorm();
     // At theta = 0 and pi one half of them is zero in the chain, being of the other ends.
     const bool is_standing = k == 0 || k == chain.n_elements;
