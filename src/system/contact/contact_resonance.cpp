@@ -92,7 +92,7 @@ double largest_eigenvalue(JoinedBodies& bodies) {
     previous_times_mass = std::exchange(times_mass, std::move(next_times_mass));
   }
   if (diagonal.empty()) return 0.0;
-  return largest_eigenvalue(diagonal, beside);
+  return subimpact::largest_eigenvalue(diagonal, beside);
 }
 
 }  // namespace
