@@ -32,10 +32,9 @@ std::vector<std::string> table_names(const std::string& method) {
 // Refuses a part of an `option` that is not one of `names`. `method`: to which the names belong;
 // `meant`: a name that is known to stand for the unknown one.
 void check_name(const std::string& option, const char* what, const std::string& name,
-                const std::vector<std::string>& names, const std::string& method = {},
-                std::string meant = {}) {
+                const std::vector<std::string>& names, const std::string& method = {}) {
   if (std::ranges::find(names, name) != names.end()) return;
-  if (meant.empty()) meant = nearest_name(name, names);
+  const std::string meant = nearest_name(name, names);
   throw CaseFileError(fmt::format(
       "--methods {}: unknown {} \"{}\"; allowed{}: {}; {}", option, what, name,
       method.empty() ? "" : " for " + method, fmt::join(names, ", "),
@@ -192,8 +191,7 @@ bool write_after_printing(OutputDirectory& directory,
 void check_method_names(const std::vector<std::string>& methods) {
   for (const std::string& option : methods) {
     const auto [method, table, events] = parse_method_name(option);
-    check_name(option, "method", method, find_case_key("solver.method")->choice_names(), {},
-               own_name("solver.method", method));
+    check_name(option, "method", method, find_case_key("solver.method")->choice_names());
     const std::vector<std::string> tables = table_names(method);
     if (table && tables.empty()) {
       throw CaseFileError(fmt::format("--methods {}: {} has no tables; write --methods {}", option,
