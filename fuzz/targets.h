@@ -13,13 +13,7 @@ using Bytes = std::span<const std::uint8_t>;
 /// A case file; after a zero byte a setting of --set, and so on.
 void case_text(Bytes bytes);
 
-/// A file of a run: the first byte chooses summary.json or one of the tables, the rest is its text.
-void result_files(Bytes bytes);
-
 /// A case whose values come from tables of extreme ones: `explain`, then a run of a few steps.
 void structured_case(Bytes bytes);
-
-/// The directory of a small run with changes to its files: what `report` reads and writes.
-void result_directory(Bytes bytes);
 
 }  // namespace subimpact::fuzz

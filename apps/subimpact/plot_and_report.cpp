@@ -1,10 +1,9 @@
+#include <algorithm>
+
+#include "case/refuse.h"
 #include "commands.h"
 #include "io/directory/listed_files.h"
 #include "python.h"
-#include "subimpact/io/read_results.h"
-#include "subimpact/io/results.h"
-#include "subimpact/report/pages.h"
-#include "subimpact/report/text.h"
 
 namespace subimpact::app {
 namespace {
@@ -14,7 +13,7 @@ namespace fs = std::filesystem;
 struct FinishedRunOptions {
   std::vector<std::string> runs;
   std::string directory;
-  std::string dygraphs;
+  std::string dygraphs = SUBIMPACT_DYGRAPHS;
   std::string measured;
   std::vector<std::string> how_measured;  // one a row of `measured_options`
 
@@ -24,7 +23,8 @@ struct FinishedRunOptions {
 };
 
 struct PlotOptions {
-  std::string directory, out, formats, only;
+  std::vector<std::string> directories;
+  std::string out, formats, only;
 };
 
 int plot(PlotOptions& options) {
@@ -34,7 +34,8 @@ int plot(PlotOptions& options) {
         std::pair("--only=", options.only)}) {
     if (!value.empty()) arguments.push_back(name + value);
   }
-  arguments.insert(arguments.end(), {"--", options.directory});
+  arguments.emplace_back("--");
+  arguments.insert(arguments.end(), options.directories.begin(), options.directories.end());
   return run_python("subimpact.plot", arguments);
 }
 
@@ -75,70 +76,45 @@ int compare_with_measured(const FinishedRunOptions& options, const fs::path& dir
   return run_python("subimpact.measured", arguments);
 }
 
-int write_page(OutputDirectory& directory, const char* file, const std::string& page) {
-  write_file(directory.staging() / file, page);
-  directory.commit();
-  print("{}\n", (directory.path() / file).string());
-  return done;
-}
-
-int report(const FinishedRunOptions& options) {
-  const FinishedRun run = read_results(options.runs.front());
-  fs::path measured;
-  if (!options.measured.empty()) {
-    measured = fs::path(options.directory_or_first_run()) / "figures";
-    if (const int status = compare_with_measured(options, measured); status != done) return status;
+// Writes the page of a run or a sweep, or one that compares several runs.
+int report(FinishedRunOptions& options) {
+  const bool several = options.runs.size() > 1;
+  const std::string& first = options.runs.front();
+  const auto is_sweep = [](const fs::path& path) {
+    return fs::exists(path / "runs.csv") && !fs::exists(path / "summary.json");
+  };
+  if (!options.measured.empty() && (several || is_sweep(first))) {
+    throw CLI::ValidationError("--measured", "is compared with one run; give its directory alone");
   }
-  OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
-  const DrawnFigures figures =
-      read_figures(fs::path(options.runs.front()) / "figures", run.identity);
-  write_page(directory, "report.html", html_report(run, figures, options.dygraphs, measured));
-  std::fflush(stdout);
-  if (const std::string caveat = outcome_caveat(run.result); !caveat.empty()) {
-    print_warnings({caveat});
+  if (several && std::ranges::any_of(options.runs, is_sweep)) {
+    throw CLI::ValidationError("DIR", "a sweep, whose page shows all of its runs, is given alone");
   }
-  if (const std::string missing = why_no_charts(options.dygraphs); !missing.empty()) {
-    print_error("subimpact: note: no zoomable charts: {}\n", missing);
-  }
-  return done;
-}
-
-// Several runs: one page that compares them, in a directory of its own.
-int compare_runs(const FinishedRunOptions& options) {
-  if (options.directory.empty()) {
+  if (several && options.directory.empty()) {
     throw CLI::ValidationError("DIR",
                                "several runs are given; --out DIR must name the directory "
                                "for the page that compares them");
   }
-  std::vector<FinishedRun> runs;
-  for (const std::string& run : options.runs) runs.push_back(read_results(run));
-  OutputDirectory directory(options.directory, "report");
-  return write_page(directory, "comparison.html",
-                    comparison_report(runs, options.runs, options.dygraphs));
-}
-
-int report_sweep(const FinishedRunOptions& options) {
-  const std::string& sweep = options.runs.front();
-  const SweptRuns runs = read_sweep(sweep);
-  OutputDirectory directory(options.directory_or_first_run(),
-                            runs.identity.empty() ? "report" : "figures", runs.identity);
-  const fs::path base = fs::path(sweep) / "base.toml";  // sweeps by earlier programs have none
-  return write_page(directory, "sweep.html",
-                    sweep_report(runs, sweep, fs::exists(base) ? base.string() : "CASE.toml"));
-}
-
-int report_any(FinishedRunOptions& options) {
-  if (!options.measured.empty() && (options.runs.size() > 1 || holds_sweep(options.runs.front()))) {
-    throw CLI::ValidationError("--measured", "is compared with one run; give its directory alone");
+  if (!fs::is_directory(first)) {
+    fail<ResultsError>(
+        "{}: is not a directory; give the output directory of `subimpact run` (--out)", first);
   }
-  for (const std::string& run : options.runs) {
-    if (!holds_sweep(run)) continue;
-    if (options.runs.size() == 1) return report_sweep(options);
-    throw CLI::ValidationError(
-        "DIR",
-        fmt::format("{} holds a sweep, whose page shows all of its runs; give it alone", run));
+  const fs::path place = options.directory_or_first_run(), figures = place / "figures";
+  if (!options.measured.empty()) {
+    if (const int status = compare_with_measured(options, figures); status != done) return status;
   }
-  return options.runs.size() > 1 ? compare_runs(options) : report(options);
+  const std::optional<Manifest> manifest = several ? std::nullopt : read_manifest(first);
+  OutputDirectory directory(place, manifest ? "figures" : "report",
+                            manifest ? manifest->identity : new_identity());
+  std::vector<std::string> arguments = {"--out=" + directory.staging().string(),
+                                        "--dygraphs=" + options.dygraphs};
+  if (!options.measured.empty()) arguments.push_back("--measured=" + figures.string());
+  arguments.emplace_back("--");
+  arguments.insert(arguments.end(), options.runs.begin(), options.runs.end());
+  if (const int status = run_python("subimpact.page", arguments); status != done) return status;
+  const fs::path page = fs::directory_iterator(directory.staging())->path().filename();
+  directory.commit();
+  print("{}\n", (directory.path() / page).string());
+  return done;
 }
 
 void add_plot(CLI::App& program, int& status) {
@@ -146,12 +122,13 @@ void add_plot(CLI::App& program, int& status) {
       add_command(program, status, "plot",
                   "Draw the figures of a run, a sweep or a study (SVG, PNG and PDF)", plot);
   command
-      .add_option("DIR", options.directory,
+      .add_option("DIR", options.directories,
                   "Output directory of `subimpact run`, `stability` or `work-precision`, or of "
-                  "subimpact-sweep")
+                  "subimpact-sweep; several of runs: one figure compares them")
       ->required();
-  add_directory_option(command, options.out,
-                       "Directory for the figures; made if missing. Default: DIR/figures");
+  add_directory_option(
+      command, options.out,
+      "Directory for the figures; made if missing. Default: DIR/figures; needed with several");
   command
       .add_option("--format", options.formats,
                   "File formats, separated by commas. Default: svg,png,pdf")
@@ -163,7 +140,8 @@ void add_plot(CLI::App& program, int& status) {
   command.footer(
       "Of a run: response, first-sub-impact, indentation, energies, timeline, shapes and envelope "
       "(both unless output.shapes = 0), bending, if the run kept sections (output.sections), and "
-      "strikes, if there were several. Of a sweep: sweep_map, histograms. figures.json has their "
+      "strikes, if there were several. Of a sweep: sweep_map, histograms. Of several runs: "
+      "comparison. figures.json has their "
       "captions; `subimpact report` puts the figures of a run on its page. Needs Python with "
       "Matplotlib, where the package subimpact.plot draws them.\n"
       "Examples:\n"
@@ -176,7 +154,7 @@ void add_plot(CLI::App& program, int& status) {
 
 void add_report(CLI::App& program, int& status) {
   auto [command, options] =
-      add_command(program, status, "report", "Write finished runs as one page of HTML", report_any);
+      add_command(program, status, "report", "Write finished runs as one page of HTML", report);
   command
       .add_option(
           "DIR", options.runs,
@@ -205,9 +183,12 @@ void add_report(CLI::App& program, int& status) {
       "zoomable charts, force against indentation, a timeline with error bars and the table of "
       "sub-impacts, linked; printed, or without scripts, it is a still report, with the figures "
       "that `subimpact plot DIR` has drawn before.\n"
-      "comparison.html shows the curves of several runs in common charts, the keys in which their "
+      "comparison.html shows the curves of several runs in common figures, the keys in which their "
       "cases differ, and their sub-impacts matched with those of the first.\n"
-      "sweep.html shows a map of the runs of a sweep; a click opens the numbers of a run.\n"
+      "sweep.html shows a map of the runs of a sweep, how their numbers are distributed, and a "
+      "table.\n"
+      "Needs Python 3.9 or later with the package subimpact; pages of sweeps and of several runs "
+      "need Matplotlib too.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
       "  subimpact plot out/first; subimpact report out/first\n"

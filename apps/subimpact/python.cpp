@@ -17,20 +17,27 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* remedy =
-    "this command needs Python with NumPy, pandas, SciPy, Matplotlib and the package subimpact "
-    "(Debian: apt-get install python3-pandas python3-scipy python3-matplotlib); "
-    "SUBIMPACT_PYTHON_EXECUTABLE names another interpreter";
+    "this command needs Python 3.9 or later with the package subimpact and, but for the page of a "
+    "run, NumPy, pandas, SciPy and Matplotlib (Debian: apt-get install python3-subimpact "
+    "python3-pandas python3-scipy python3-matplotlib); SUBIMPACT_PYTHON_EXECUTABLE names another "
+    "interpreter";
 
 // Arguments: the remedy, the module and its own arguments. As `python -m`, but that modules in the
-// working directory are not taken for others, and that a missing one is no traceback.
+// working directory are not taken for others, and that a missing one, or a Python that is too old,
+// is no traceback.
 constexpr const char* start_module = R"(import runpy, sys
-remedy, *sys.argv = sys.argv[1:]
+remedy = sys.argv[1]
+sys.argv = sys.argv[2:]
 sys.path = [place for place in sys.path if place]
+def refuse(cause):
+    sys.stderr.write("subimpact: %s: %s; %s\n" % (sys.executable, cause, remedy))
+    sys.exit(2)
+if sys.version_info < (3, 9):
+    refuse("is Python %d.%d" % sys.version_info[:2])
 try:
     runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
 except ModuleNotFoundError as error:
-    print(f"subimpact: {sys.executable}: {error}; {remedy}", file=sys.stderr)
-    sys.exit(2)
+    refuse(error)
 )";
 
 std::string interpreter() {

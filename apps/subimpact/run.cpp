@@ -74,7 +74,7 @@ void add_scatter(WithinRun& run, const RunOptions& options, const InterruptListe
 // Writes the results; returns why they could not be written.
 std::string write(ResultWriter& files, const Case& input, const Result& result) {
   try {
-    files.finish(input, result);
+    files.finish(input, result, report_json(input, result));
     return {};
   } catch (const OutputError& error) {
     return error.what();
@@ -220,9 +220,9 @@ void add_run(CLI::App& program, int& status) {
   add_directory_option(
       command, options.directory,
       "Directory for events.csv, transitions.csv, history.csv, shapes.csv, envelope.csv, "
-      "summary.json, manifest.json and, where asked for, sections.csv and points.csv; made if "
-      "missing. Default: the case file's name without its ending, and -results, "
-      "in the current directory");
+      "summary.json, report.json, manifest.json and, where asked for, sections.csv and points.csv; "
+      "made if missing. Default: the case file's name without its ending, and -results, in the "
+      "current directory");
   options.input.add_within_to(command);
   options.input.add_opening_to(command);
   options.input.may_repeat = true;

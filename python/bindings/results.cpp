@@ -10,9 +10,9 @@
 #include "finished.h"
 #include "io/records/run_tables.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
+#include "subimpact/study/judgement/match.h"
 #include "tables.h"
 
 namespace subimpact::python {
@@ -30,15 +30,24 @@ py::array table_named(const Finished& run, const std::string& name) {
   return found;
 }
 
-Finished read(const std::string& directory) {
-  FinishedRun run = read_results(directory);
-  make_answers(run.input, run.result);
-  return {std::move(run.input), std::move(run.result)};
+using Times = std::vector<std::pair<double, double>>;  // start and end, s; infinity: still open
+
+std::vector<SubImpact> sub_impacts_at(const Times& times) {
+  std::vector<SubImpact> all(times.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].start = times[i].first;
+    if (std::isfinite(times[i].second)) all[i].end = times[i].second;
+  }
+  return all;
 }
 
-py::object first_failure(const Finished& run) {
-  const auto& failure = run.result.outcome.first_failure;
-  return failure ? py::object(py::make_tuple(failure->from, failure->to)) : py::none();
+// Pairs of indices; none where the other run has no counterpart.
+auto matched(const Times& first, const Times& second) {
+  std::vector<std::pair<std::optional<std::size_t>, std::optional<std::size_t>>> pairs;
+  for (const auto& pair : match_sub_impacts(sub_impacts_at(first), sub_impacts_at(second))) {
+    pairs.emplace_back(pair.first, pair.second);
+  }
+  return pairs;
 }
 
 // --- tables of sweeps ----------------------------------------------------------------------------
@@ -152,7 +161,9 @@ std::vector<std::string> names_of_columns(const auto& columns) {
 }  // namespace
 
 void bind_results(py::module_& module) {
-  module.def("read_results", &read, py::arg("directory"), py::call_guard<py::gil_scoped_release>());
+  module.def(
+      "no_rows", [](const std::string& table) { return table_named({}, table); }, py::arg("table"));
+  module.def("matched", &matched, py::arg("first"), py::arg("second"));
   module.def("columns", &column_listing);
   module.def("event_columns", [] { return names_of_columns(run_table<SubImpact>().columns); });
   module.def("swept_columns", [] { return names_of_columns(swept_run_columns()); });
@@ -161,10 +172,9 @@ void bind_results(py::module_& module) {
       .def(
           "write",
           [](const Finished& run, const std::string& directory) {
-            write_results(directory, run.input, run.result);
+            write_results(directory, run.input, run.result, report_json(run.input, run.result));
           },
           py::arg("directory"), py::call_guard<py::gil_scoped_release>())
-      .def("case_text", [](const Finished& run) { return case_file_text(run.input); })
       .def("summary", [](const Finished& run) { return summary_json(run.input, run.result); })
       .def("events_csv", [](const Finished& run) { return csv_of<SubImpact>(run.result); })
       .def("swept_cells",
@@ -174,35 +184,9 @@ void bind_results(py::module_& module) {
              cells.pop_back();  // the end of the line
              return cells;
            })
-      .def("report",
-           [](const Finished& run) {
-             const bool has_scatter = run.result.predictability.has_value();
-             return run_summary(run.input, run.result) + '\n' + sub_impact_table(run.result) +
-                    (has_scatter ? '\n' + scatter_table(run.result) : std::string());
-           })
-      .def("brief", [](const Finished& run) { return run.result.brief_report(); })
-      .def(
-          "value",
-          [](const Finished& run, const std::string& name) {
-            const CaseKey* key = find_case_key(name);
-            if (key == nullptr) throw py::key_error(name);
-            return to_python(key->get(run.input));
-          },
-          py::arg("key"))
-      .def_property_readonly(
-          "outcome",
-          [](const Finished& run) { return std::string(to_string(run.result.outcome.kind)); })
-      .def_property_readonly("time", [](const Finished& run) { return run.result.outcome.time; })
+      .def("report_json", [](const Finished& run) { return report_json(run.input, run.result); })
       .def_property_readonly("message",
                              [](const Finished& run) { return run.result.outcome.message; })
-      .def_property_readonly("first_failure", &first_failure)
-      .def_property_readonly("usable", [](const Finished& run) { return run.result.is_usable(); })
-      .def_property_readonly("warnings", member(&Result::warnings))
-      .def_property_readonly("n_certain",
-                             [](const Finished& run) { return run.result.n_certain(); })
-      .def_property_readonly("all_certain",
-                             [](const Finished& run) { return run.result.all_certain(); })
-      .def_property_readonly("n_predictable", &n_predictable)
       .def_readonly("interrupted", &Finished::interrupted)
       .def_readonly("timed_out", &Finished::timed_out);
 }

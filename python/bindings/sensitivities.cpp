@@ -56,6 +56,7 @@ Finished base_run(const Sensitivity& study) {
   if (!study.rows.empty() && !keys.empty() && has_all) {
     set_predictability(run.result, study, study.input.scatter);
   }
+  make_answers(run.input, run.result);
   return run;
 }
 

@@ -79,7 +79,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         package, program = _build(pathlib.Path(settings.get("build-dir", temporary)).resolve(), settings)
         contents = {f"subimpact/{path.relative_to(package).as_posix()}": path.read_bytes()
                     for path in sorted(package.rglob("*"))
-                    if path.is_file() and (path.suffix in {".py", ".pyi", ".so"} or path.name == "py.typed")}
+                    if path.is_file() and (path.suffix in {".py", ".pyi", ".so", ".js", ".css", ".html"} or path.name == "py.typed")}
         contents[f"{stem}.data/scripts/subimpact"] = program.read_bytes()
     scripts = "".join(f"{name} = {target}\n" for name, target in project["scripts"].items())
     contents |= {

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import tempfile
 from functools import cached_property
 from html import escape
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._errors import OutputError, ResultsError
+from ._errors import OutputError
+from ._stored import Stored
 from ._text import path_text
 
 if TYPE_CHECKING:
@@ -31,6 +32,14 @@ def columns() -> str:
     return _core.columns()
 
 
+def _table(name: str, meaning: str) -> cached_property[Table]:
+    def table(result: Result) -> Table:
+        return result._run.table(name)
+
+    table.__doc__ = meaning
+    return cached_property(table)
+
+
 class Result:
     """The results of a run.
 
@@ -40,54 +49,29 @@ class Result:
     of real numbers and -1 in one of whole numbers.
     """
 
-    def __init__(self, finished: _core.Finished) -> None:
-        self._finished = finished
+    def __init__(self, run: _core.Finished | Stored) -> None:
+        self._run = run
 
-    @cached_property
-    def sub_impacts(self) -> Table:
-        """One row per sub-impact: events.csv."""
-        return self._finished.table("sub_impacts")
-
-    @cached_property
-    def transitions(self) -> Table:
-        """One row per located event: transitions.csv."""
-        return self._finished.table("transitions")
-
-    @cached_property
-    def history(self) -> Table:
-        """One row per output.interval, and two per event of the contact: history.csv."""
-        return self._finished.table("history")
-
-    @cached_property
-    def sections(self) -> Table:
-        """The sections of output.sections over time: sections.csv."""
-        return self._finished.table("sections")
-
-    @cached_property
-    def points(self) -> Table:
-        """The points of output.points over time: points.csv."""
-        return self._finished.table("points")
-
-    @cached_property
-    def shapes(self) -> Table:
-        """The whole beam at some instants: shapes.csv, with all digits."""
-        return self._finished.table("shapes")
-
-    @cached_property
-    def envelope(self) -> Table:
-        """Extremes along the beam: envelope.csv."""
-        return self._finished.table("envelope")
-
-    @cached_property
-    def strikes(self) -> Table:
-        """The strikes of a case with repeat.strikes, one after another: strikes.csv."""
-        return self._finished.table("strikes")
+    sub_impacts = _table("sub_impacts", "One row per sub-impact: events.csv.")
+    transitions = _table("transitions", "One row per located event: transitions.csv.")
+    history = _table("history", "One row per output.interval, and two per event of the contact: history.csv.")
+    sections = _table("sections", "The sections of output.sections over time: sections.csv.")
+    points = _table("points", "The points of output.points over time: points.csv.")
+    shapes = _table("shapes", "The whole beam at some instants: shapes.csv, after a run with all digits.")
+    envelope = _table("envelope", "Extremes along the beam: envelope.csv.")
+    strikes = _table("strikes", "The strikes of a case with repeat.strikes, one after another: strikes.csv.")
 
     @cached_property
     def summary(self) -> dict[str, Any]:
         """summary.json: settings given and used, counts, zones, conservation, work."""
-        summary: dict[str, Any] = json.loads(self._finished.summary())
+        summary: dict[str, Any] = json.loads(self._run.summary())
         return summary
+
+    @cached_property
+    def report_data(self) -> dict[str, Any]:
+        """report.json: what screen and page show, rounded as errors allow."""
+        report: dict[str, Any] = json.loads(self._run.report_json())
+        return report
 
     @property
     def answers(self) -> list[dict[str, Any]]:
@@ -106,79 +90,87 @@ class Result:
         """The case that was run, with every choice made: of mesh, method, theory ..."""
         from .case import Case
 
-        return Case.from_text(self._finished.case_text())
+        return Case.from_text(self.report_data["case"])
 
     @property
     def outcome(self) -> str:
         """ "completed", "stopped", "inaccurate", "unstable", "chattering", "solver-failed" or
         "left-validity"."""
-        return self._finished.outcome
+        return str(self.summary["outcome"]["kind"])
 
     @property
     def message(self) -> str:
         """Of a run that did not complete: the cause and what to do."""
-        return self._finished.message
+        return str(self.summary["outcome"]["message"])
 
     @property
     def time(self) -> float:
         """The time reached, s."""
-        return self._finished.time
+        return float(self.summary["outcome"]["time_s"])
 
     @property
     def first_failure(self) -> tuple[float, float] | None:
         """The interval, s, in which results stop being right; None if they do not."""
-        return self._finished.first_failure
+        failure = self.summary["outcome"]["first_failure_s"]
+        return (failure[0], failure[1]) if failure else None
 
     @property
     def usable(self) -> bool:
         """Whether the whole result passed every check."""
-        return self._finished.usable
+        return self.outcome in ("completed", "stopped")
 
     @property
     def interrupted(self) -> bool:
         """Whether Ctrl-C ended the run."""
-        return self._finished.interrupted
+        return self._run.interrupted
 
     @property
     def timed_out(self) -> bool:
         """Whether the time that the run was given ended it."""
-        return self._finished.timed_out
+        return self._run.timed_out
 
     @property
     def warnings(self) -> list[str]:
         """Warnings about results that passed all checks."""
-        return self._finished.warnings
+        return list(self.summary["warnings"])
 
     @property
     def n_certain(self) -> int | None:
         """How many sub-impacts are certain; None without error bars."""
-        return self._finished.n_certain
+        return int((self.sub_impacts["certain"] == 1).sum()) if self.summary["error_bars"] else None
 
     @property
     def all_certain(self) -> bool:
         """Whether it is certain that there are these sub-impacts and no others."""
-        return self._finished.all_certain
+        bars = self.summary["error_bars"]
+        return bool(bars) and bars["first_unresolved_index"] is None
 
     @property
     def n_predictable(self) -> int | None:
         """How many leading sub-impacts can be predicted in spite of the case's [scatter]; None
         without scatter. `summary["predictability"]` has the reason and the horizon."""
-        return self._finished.n_predictable
+        if not (found := self.summary["predictability"]):
+            return None
+        first: int | None = found["first_unpredictable_index"]
+        return len(self.sub_impacts) if first is None else first - 1
 
     def __getitem__(self, key: str) -> Any:
         """The value of a key of the case that was run, with every choice made."""
+        table, _, leaf = key.rpartition(".")
+        keys = self.summary["case"]
         try:
-            return self._finished.value(key)
+            value = keys[table][leaf] if table else keys["title" if leaf == "title" else ""]
         except KeyError:
             raise KeyError(f"{key} is no key of a case; tables are attributes, as in result.history[\"force_N\"]") from None
+        return math.inf if value == "inf" and table else value
 
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes the files that `subimpact run` writes. Raises OutputError."""
-        self._finished.write(path_text(directory, OutputError))
+        self._run.write(path_text(directory, OutputError))
 
     def report(self) -> str:
         """The summary and the table of sub-impacts, as `subimpact run` prints them."""
-        return self._finished.report()
+        return str(self.report_data["printed"])
 
     def to_pandas(self, table: str = "sub_impacts") -> Any:
         """A table as a pandas.DataFrame: "sub_impacts", "history", "sections" ..."""
@@ -189,22 +181,21 @@ class Result:
         return pandas.DataFrame(getattr(self, table))
 
     def __getstate__(self) -> dict[str, bytes]:
+        if isinstance(self._run, Stored):
+            return self._run.files
         with tempfile.TemporaryDirectory() as directory:
             self.write(directory)
-            return {path.name: path.read_bytes() for path in Path(directory).iterdir() if path.is_file()}
+            return Stored.read(directory).files
 
     def __setstate__(self, files: dict[str, bytes]) -> None:
-        with tempfile.TemporaryDirectory() as directory:
-            for name, content in files.items():
-                Path(directory, name).write_bytes(content)
-            self._finished = _core.read_results(directory)
+        self._run = Stored(files)
 
     def _repr_html_(self) -> str:
         """The summary and the sub-impacts as `subimpact run` prints them, for notebooks."""
         return f"<pre>{escape(self.report())}</pre>"
 
     def __repr__(self) -> str:
-        return f"<Result {self._finished.brief()}>"
+        return f"<Result {self.report_data['brief']}>"
 
     def plot(self, axes: Any = None) -> Any:
         """Draws the contact force over time, sub-impacts shaded; returns the axes of Matplotlib. Other
@@ -216,4 +207,4 @@ class Result:
 
 def read_results(directory: str | os.PathLike[str]) -> Result:
     """A finished run, read back from its files. Raises ResultsError."""
-    return Result(_core.read_results(path_text(directory, ResultsError)))
+    return Result(Stored.read(directory))

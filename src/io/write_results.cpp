@@ -173,7 +173,7 @@ void ResultWriter::flush(RowFile& rows) {
   }
 }
 
-void ResultWriter::finish(const Case& input, const Result& result) {
+void ResultWriter::finish(const Case& input, const Result& result, const std::string& report) {
   if (!lost_.empty()) throw OutputError(lost_);
   const fs::path& place = directory_.staging();
   for_each_file([this](RowFile& file) { file.write_to(directory_); });
@@ -185,18 +185,20 @@ void ResultWriter::finish(const Case& input, const Result& result) {
   write_table(run_table<SubImpact>());
   write_table(run_table<Transition>());
   write_file(place / "summary.json", summary_json(input, result));
+  if (!report.empty()) write_file(place / "report.json", report);
   if (may_write_case(directory_.path())) write_file(place / case_name, case_file_text(input));
   directory_.commit();
   remove_old_figures(directory_.path());
 }
 
-void write_results(const fs::path& directory, const Case& input, const Result& result) {
+void write_results(const fs::path& directory, const Case& input, const Result& result,
+                   const std::string& report) {
   ResultWriter files(directory, input);
   for (const HistoryRow& row : result.history) files.add(row);
   for (const SectionRow& row : result.section_history) files.add(row);
   for (const PointRow& row : result.point_history) files.add(row);
   for (const ShapeRow& row : result.shapes) files.add(row);
-  files.finish(input, result);
+  files.finish(input, result, report);
 }
 
 }  // namespace subimpact

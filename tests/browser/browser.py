@@ -45,8 +45,10 @@ def start(width=1280, height=1000, reachable=""):
     return driver
 
 
-def open_page(driver, path):
+def open_page(driver, path, live=True):
     driver.get(pathlib.Path(path).resolve().as_uri())
+    if not live:
+        return
     for _ in range(600):
         if driver.execute_script("return Boolean(window.page)"):
             return

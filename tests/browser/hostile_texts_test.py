@@ -30,8 +30,8 @@ class HostileTexts(PageTestCase):
         name = "a\"b<i>`c` 'd'"
         self.program.run(name, "time.end=3e-4", "model.segments=51")
         self.program("report", "hostile", name, "--out", "both")
-        browser.open_page(self.driver, self.program.directory / "both" / "comparison.html")
-        self.assertIn(name, [cell.text for cell in self.driver.find_elements("css selector", "th small")])
+        browser.open_page(self.driver, self.program.directory / "both" / "comparison.html", live=False)
+        self.assertIn("B: " + name, [cell.text for cell in self.driver.find_elements("css selector", "th")])
         self.assertIn(self.TITLE.split("\n")[0], self.js("return document.querySelector('h1').textContent"))
         self.assertIsNone(self.js("return window.hacked"))
 
@@ -64,10 +64,21 @@ class HostileTexts(PageTestCase):
         for part in summary["error_bars"]["parts"]:
             part.update({"name": words, "refined_run": words, "reason": words, "first_unresolved_index": 1})
         summary["outcome"].update({"kind": "solver-failed", "message": words})
+        summary["verdict"]["text"] = words
+        for answer in summary["answers"]:
+            answer.update({"label": words, "text": words, "error_text": words, "body_text": words, "note": words})
         path.write_text(json.dumps(summary), encoding="utf-8")
+        report = json.loads((directory / "report.json").read_text(encoding="utf-8"))
+        report.update({name: words for name in ("caveat", "tolerance", "scatter", "strikes", "verbose", "case")})
+        for line in report["headlines"]:
+            line.update({"text": words})
+        for row in report["sub_impacts"]["rows"]:
+            row["cells"] = [words] * len(row["cells"])
+        (directory / "report.json").write_text(json.dumps(report), encoding="utf-8")
         manifest = json.loads((directory / "manifest.json").read_text(encoding="utf-8"))
-        manifest["files"]["summary.json"] = {"bytes": path.stat().st_size,
-                                             "sha256": hashlib.sha256(path.read_bytes()).hexdigest()}
+        for path in (path, directory / "report.json"):
+            manifest["files"][path.name] = {"bytes": path.stat().st_size,
+                                            "sha256": hashlib.sha256(path.read_bytes()).hexdigest()}
         (directory / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
         self.program("report", "changed")
         browser.open_page(self.driver, directory / "report.html")

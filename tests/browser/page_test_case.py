@@ -60,6 +60,7 @@ return [...document.querySelectorAll('button, input, select, canvas, .plot, figu
 class PageTestCase(unittest.TestCase):
     maxDiff = 2000
     page = None  # file of the page, which make() writes
+    live = True  # it has scripts
 
     @classmethod
     def setUpClass(cls):
@@ -71,7 +72,7 @@ class PageTestCase(unittest.TestCase):
 
     def setUp(self):
         self.driver.set_window_size(1280, 1000)
-        browser.open_page(self.driver, self.page)
+        browser.open_page(self.driver, self.page, self.live)
         self.frame()
 
     def tearDown(self):

@@ -4,8 +4,8 @@
 
 #include "environment.h"
 #include "process.h"
+#include "run_files.h"
 #include "subimpact/io/output_directory.h"
-#include "subimpact/io/read_results.h"
 
 namespace subimpact {
 namespace {
@@ -44,7 +44,9 @@ TEST_F(Report, IsOnePageBesideTheRun) {
 TEST_F(Report, HasNoFiguresOfTheRunBefore) {
   const std::filesystem::path place = directory.path / "here/figures";
   {
-    OutputDirectory figures(place, "figures", read_results(directory.path / "here").identity);
+    OutputDirectory figures(
+        place, "figures",
+        nlohmann::json::parse(directory.read("here/manifest.json")).at("identity"));
     std::ofstream(figures.staging() / "timeline.svg") << "<svg/>";
     figures.commit();
   }
@@ -111,8 +113,9 @@ TEST_F(ReportWithMeasurement, LaysAStrainBesideTheGaugeThatIsNamed) {
                            "output.gauges=[{position=0.3},{position=0.5,face=\"front\"}]"},
                           {"--out", "gauged"}));
   std::string text = "time (us),strain (um/m)\n";
-  for (const auto& row : read_results(directory.path / "gauged").result.history) {
-    text += fmt::format("{:.4f},{:.6f}\n", 1e6 * row.time + 20.0, 1.02e6 * row.gauge_strains[1]);
+  for (const TableRow& row : table_in(directory.path / "gauged/history.csv")) {
+    text += fmt::format("{:.4f},{:.6f}\n", 1e6 * row.number("time_s") + 20.0,
+                        1.02e6 * row.number("gauge_2_strain"));
   }
   directory.write("strain.csv", text);
   const auto report = [&](const std::string& gauge, int status = 0) {

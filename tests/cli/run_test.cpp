@@ -3,9 +3,9 @@
 
 #include "address_sanitizer.h"
 #include "process.h"
+#include "run_files.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/output_directory.h"
-#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "unwrapped.h"
 
@@ -17,7 +17,7 @@ using Memory = InADirectory;
 using ARun = InADirectory;
 
 nlohmann::json summary_of(const TemporaryDirectory& directory) {
-  return nlohmann::json::parse(directory.read("here/summary.json"));
+  return summary_in(directory.path / "here");
 }
 
 Words short_run(const Words& more = {}, const Words& settings = {}) {
@@ -153,7 +153,7 @@ TEST_F(ARun, WhoseResultsCannotBeWrittenPrintsThemAndLeavesTheOlderOnes) {
   expect_in(finished.errors, "cannot be written (File too large)");
   expect_in(unwrapped(finished.output), "zone 1");
   EXPECT_EQ(directory.read("here/manifest.json"), before);
-  EXPECT_NO_THROW(read_results(directory.path / "here"));
+  EXPECT_EQ(summary_of(directory).at("outcome").at("kind"), "completed");
 }
 
 TEST_F(ARun, IntoADirectoryThatCannotBeWrittenIsRefusedBeforeItBegins) {
@@ -221,7 +221,7 @@ TEST_F(ARun, TakesTheDiskThatIsForecast) {
   for (const char* name : {"history.csv", "sections.csv", "shapes.csv"}) {
     taken += static_cast<double>(std::filesystem::file_size(here / name));
   }
-  EXPECT_NEAR(expected_bytes(read_results(here).input), 1.05 * taken, 0.25 * taken);
+  EXPECT_NEAR(expected_bytes(read_case_file(here / "case.toml").value), 1.05 * taken, 0.25 * taken);
 }
 
 TEST(Compare, ThatIsToldToEndPrintsTheMethodsThatHadEnded) {
@@ -243,21 +243,22 @@ TEST_F(ARun, ThatIsToldToEndKeepsWhatItHasComputed) {
                     directory.path, 700, signal);
     EXPECT_EQ(finished.status, 128 + signal);
     expect_in(finished.errors, "stopped");
-    const FinishedRun run = read_results(directory.path / "here");
-    EXPECT_EQ(run.result.outcome.kind, OutcomeKind::stopped);
-    ASSERT_FALSE(run.result.history.empty());
-    EXPECT_EQ(run.result.history.back().time, run.result.outcome.time);
+    const auto outcome = summary_of(directory).at("outcome");
+    EXPECT_EQ(outcome.at("kind"), "stopped");
+    const std::vector<TableRow> history = table_in(directory.path / "here/history.csv");
+    ASSERT_FALSE(history.empty());
+    EXPECT_EQ(history.back().number("time_s"), outcome.at("time_s"));
   }
 }
 
 // A run of the paper's scene without any choice of mesh and method.
-FinishedRun open_run(const TemporaryDirectory& directory, const Words& more,
-                     const std::string& lines = {}) {
+nlohmann::json open_run(const TemporaryDirectory& directory, const Words& more,
+                        const std::string& lines = {}) {
   directory.write("open.toml", open_case + lines);
   Words words = {"run", "open.toml", "--out", "here"};
   words.insert(words.end(), more.begin(), more.end());
   run_in(directory, words);
-  return read_results(directory.path / "here");
+  return summary_of(directory);
 }
 
 // The paper's own model of its scene.
@@ -266,30 +267,31 @@ const Words papers_model = {"--set", "beam.theory=rayleigh", "--set", "contact.l
 TEST_F(RunWithin, MeetsAWishAndLeavesTheChoiceInItsFiles) {
   Words words = {"--within", "1us"};
   words.insert(words.end(), papers_model.begin(), papers_model.end());
-  const FinishedRun run = open_run(directory, words);
-  ASSERT_TRUE(run.result.tolerance);
-  EXPECT_TRUE(run.result.tolerance->met);
-  EXPECT_EQ(run.result.tolerance->asked, 1e-6);
-  ASSERT_GE(run.result.sub_impacts.size(), 2u);
-  EXPECT_NEAR(*run.result.sub_impacts[0].end, 201.476e-6, 1e-6);
-  EXPECT_EQ(run.input.solver.method, Method::central_difference);
-  EXPECT_GT(run.input.model.segments, 501);
+  const auto run = open_run(directory, words);
+  EXPECT_EQ(run.at("wish_met"), true);
+  EXPECT_EQ(run.at("wish").at("event_times_s"), 1e-6);
+  const std::vector<TableRow> hits = table_in(directory.path / "here/events.csv");
+  ASSERT_GE(hits.size(), 2u);
+  EXPECT_NEAR(hits[0].number("end_s"), 201.476e-6, 1e-6);
+  EXPECT_EQ(run.at("case").at("solver").at("method"), "central-difference");
+  EXPECT_GT(run.at("case").at("model").at("segments"), 501);
   // Rows of one run alone, though several were made.
-  EXPECT_EQ(run.result.history.front().time, 0.0);
-  for (std::size_t i = 1; i < run.result.history.size(); ++i) {
-    ASSERT_GE(run.result.history[i].time, run.result.history[i - 1].time);
+  const std::vector<TableRow> history = table_in(directory.path / "here/history.csv");
+  EXPECT_EQ(history.front().number("time_s"), 0.0);
+  for (std::size_t i = 1; i < history.size(); ++i) {
+    ASSERT_GE(history[i].number("time_s"), history[i - 1].number("time_s"));
   }
 }
 
 TEST_F(RunWithin, ThatTheCaseItselfWishesForNeedsNoOption) {
-  const FinishedRun run = open_run(directory, {}, "accuracy = { event_times = 2e-6 }\n");
-  EXPECT_EQ(run.result.tolerance->asked, 2e-6);
+  const auto run = open_run(directory, {}, "accuracy = { event_times = 2e-6 }\n");
+  EXPECT_EQ(run.at("wish").at("event_times_s"), 2e-6);
 }
 
 TEST_F(RunWithin, AFixedMeshThatCannotMeetTheWishEndsWithStatus0AndTheReason) {
-  const FinishedRun run = open_run(directory, {"--within", "1ns", "--set", "model.segments=101"});
-  EXPECT_FALSE(run.result.tolerance->met);
-  EXPECT_EQ(run.result.tolerance->key, "model.segments");
+  const auto run = open_run(directory, {"--within", "1ns", "--set", "model.segments=101"});
+  EXPECT_EQ(run.at("wish_met"), false);
+  EXPECT_EQ(run.at("wish").at("key_to_free"), "model.segments");
 }
 
 // The first touch is the only event time, and a mesh that the contact outlasts is doubted.
@@ -299,13 +301,10 @@ TEST_F(ARun, ThatEndsWithinTheFirstContactStatesNoErrorOfItsEnd) {
   expect_in(unwrapped(run.output),
             "no event time up to 37.1 us but the first touch, which is exact",
             "1 sub-impact, 0 us to the end of the run", "\n   1             0        (open)");
-  const FinishedRun read = read_results(directory.path / "case-results");
-  const SubImpact& open = read.result.sub_impacts.front();
-  EXPECT_FALSE(open.end);
-  EXPECT_FALSE(open.end_error);
-  EXPECT_EQ(open.start_error, 0.0);
-  ASSERT_TRUE(open.peak_force_error);
-  EXPECT_GT(*open.peak_force_error, 0.0);
+  const TableRow open = table_in(directory.path / "case-results/events.csv").at(0);
+  EXPECT_FALSE(open.contains("end_s") || open.contains("end_error_s"));
+  EXPECT_EQ(open.number("start_error_s"), 0.0);
+  EXPECT_GT(open.number("peak_force_error_N"), 0.0);
   expect_in(
       unwrapped(run_in(directory,
                        paper("run", {"time.end=3.71e-5", "output.interval=0", "model.segments=21"},
@@ -316,36 +315,37 @@ TEST_F(ARun, ThatEndsWithinTheFirstContactStatesNoErrorOfItsEnd) {
 }
 
 TEST_F(ARun, OfACaseThatLeavesItsModelOpenChoosesItAndTheCaseItWritesIsThatModel) {
-  const FinishedRun run = open_run(directory, {"--error-bars=time"});
-  EXPECT_TRUE(run.input.scene.beam.shears());
-  EXPECT_EQ(run.input.scene.contact.kind, ContactKind::line);
-  expect_in(run.input.model_choice, "beam.theory = \"timoshenko\"", "contact.law = \"line\"");
-  ASSERT_TRUE(run.result.model_errors);
-  EXPECT_GT(*run.result.model_errors->error.peak_force, 0.0);
-  directory.write("written.toml", case_file_text(run.input));
+  const auto run = open_run(directory, {"--error-bars=time"});
+  EXPECT_EQ(run.at("case").at("beam").at("theory"), "timoshenko");
+  EXPECT_EQ(run.at("case").at("contact").at("law"), "line");
+  expect_in(run.at("model_choice").get<std::string>(), "beam.theory = \"timoshenko\"",
+            "contact.law = \"line\"");
+  EXPECT_GT(run.at("model_errors").at("error").at("peak_force_N"), 0.0);
+  directory.write("written.toml", directory.read("here/case.toml"));
   run_in(directory,
          {"run", "written.toml", "--out", "again", "--error-bars=time", "--model-errors=off"});
-  const FinishedRun again = read_results(directory.path / "again");
-  EXPECT_FALSE(again.result.model_errors);
-  EXPECT_EQ(again.input.model_choice, "");
-  EXPECT_EQ(again.result.sub_impacts.front().end, run.result.sub_impacts.front().end);
-  EXPECT_EQ(again.result.max_force, run.result.max_force);
+  const auto again = summary_in(directory.path / "again");
+  EXPECT_TRUE(again.at("model_errors").is_null());
+  EXPECT_EQ(again.at("model_choice"), "");
+  EXPECT_EQ(table_in(directory.path / "again/events.csv").at(0).at("end_s"),
+            table_in(directory.path / "here/events.csv").at(0).at("end_s"));
+  EXPECT_EQ(again.at("maxima"), run.at("maxima"));
 }
 
 TEST_F(ARun, OfACaseThatFixesNothingHasErrorBarsAndItsOwnMesh) {
-  const FinishedRun run = open_run(directory, papers_model);
-  ASSERT_TRUE(run.result.error_estimate);
-  EXPECT_FALSE(run.result.tolerance);
-  const SubImpact& first = run.result.sub_impacts.front();
-  EXPECT_NEAR(*first.end, 201.476e-6, *first.end_error);
-  EXPECT_LT(*first.end_error, 1e-6);
+  const auto run = open_run(directory, papers_model);
+  EXPECT_FALSE(run.at("error_bars").is_null());
+  EXPECT_TRUE(run.at("wish").is_null());
+  const TableRow first = table_in(directory.path / "here/events.csv").at(0);
+  EXPECT_NEAR(first.number("end_s"), 201.476e-6, first.number("end_error_s"));
+  EXPECT_LT(first.number("end_error_s"), 1e-6);
 }
 
 TEST_F(ARun, WithoutErrorBarsTakesTheDefaultKeys) {
-  const FinishedRun run = open_run(directory, {"--error-bars", "off"});
-  EXPECT_FALSE(run.result.error_estimate);
-  EXPECT_EQ(run.input.model.segments, 501);
-  EXPECT_EQ(run.input.solver.method, Method::erk);
+  const auto run = open_run(directory, {"--error-bars", "off"});
+  EXPECT_TRUE(run.at("error_bars").is_null());
+  EXPECT_EQ(run.at("case").at("model").at("segments"), 501);
+  EXPECT_EQ(run.at("case").at("solver").at("method"), "erk");
 }
 
 // A cantilever struck at its tip; elements have a node there, cells do not.

@@ -35,9 +35,7 @@ TEST_P(TheCorpus, IsReadOrRefusedWithoutACrash) {
 
 INSTANTIATE_TEST_SUITE_P(Of, TheCorpus,
                          testing::Values(Target{"case_text", case_text},
-                                         Target{"result_files", result_files},
-                                         Target{"structured_case", structured_case},
-                                         Target{"result_directory", result_directory}),
+                                         Target{"structured_case", structured_case}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 // Bytes of a congruential generator, the same everywhere: 300 lots of at least so many.
@@ -55,8 +53,6 @@ void run_on_any_bytes(void (*run)(Bytes), std::uint32_t state, int least, int sp
 TEST(StructuredCases, OfAnyBytesAreRefusedOrRunSoundly) {
   run_on_any_bytes(structured_case, 1, 8, 40);
 }
-
-TEST(ChangedResultDirectories, AreReadOrRefused) { run_on_any_bytes(result_directory, 2, 6, 20); }
 
 }  // namespace
 }  // namespace subimpact::fuzz

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import tempfile
 
 import subimpact
 
@@ -28,3 +29,8 @@ assert subimpact.__version__ in version.stdout
 found = subprocess.run([prefix + "/bin/subimpact", "python", "-c", "import subimpact; print(subimpact.__file__)"],
                        env=environment, capture_output=True, text=True, check=True)
 assert os.path.realpath(found.stdout.strip()).startswith(prefix), found.stdout
+with tempfile.TemporaryDirectory() as directory:
+    result.write(directory)
+    subprocess.run([prefix + "/bin/subimpact", "report", directory], env=environment, check=True)
+    with open(directory + "/report.html", encoding="utf-8") as page:
+        assert "class Strike" in page.read()

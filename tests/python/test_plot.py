@@ -166,7 +166,7 @@ def test_a_run_that_did_not_complete_says_so_above_its_panels(run):
     class Failed(si.Result):
         outcome, first_failure = "solver-failed", (1e-4, 1.5e-4)
 
-    said = words(plot.timeline(Failed(run._finished)))
+    said = words(plot.timeline(Failed(run._run)))
     assert "solver failed at 1 ms\nfirst failure between 100 and 150 µs" in said
 
 

@@ -16,12 +16,14 @@ namespace subimpact {
 /// or removed. Files of other layouts are not read.
 constexpr int summary_layout = 6;
 
-/// Writes the files of a run. Numbers in CSV carry 17 significant digits, enough to read the same
-/// double back; the columns are the same for every result. Files: events.csv, transitions.csv,
-/// history.csv and summary.json; shapes.csv and envelope.csv unless output.shapes is 0;
-/// sections.csv and points.csv if output.sections and output.points are not empty. All files appear
-/// together, with a manifest.json, or none does (see OutputDirectory). Throws OutputError.
-void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
+/// Writes the files of a run; `report`: report_json() of it, for `subimpact report`, or empty.
+/// Numbers in CSV carry 17 significant digits, enough to read the same double back; the columns are
+/// the same for every result. Files: events.csv, transitions.csv, history.csv and summary.json;
+/// shapes.csv and envelope.csv unless output.shapes is 0; sections.csv and points.csv if
+/// output.sections and output.points are not empty. All files appear together, with a
+/// manifest.json, or none does (see OutputDirectory). Throws OutputError.
+void write_results(const std::filesystem::path& directory, const Case& input, const Result& result,
+                   const std::string& report = {});
 
 /// Rough size (bytes) of the files of a run: its rows, with `n_shape_points` points in a shape
 /// (ResolvedSettings), or as many as output.shape_points allows.
@@ -51,7 +53,7 @@ class ResultWriter final : public RowSink {
 
   /// Writes the other files and puts all in place. Throws OutputError, also if rows could not be
   /// written before (a full disk); the older files are then unchanged.
-  void finish(const Case& input, const Result& result);
+  void finish(const Case& input, const Result& result, const std::string& report = {});
 
   const OutputDirectory& directory() const { return directory_; }
 

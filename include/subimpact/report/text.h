@@ -80,6 +80,18 @@ std::vector<LabelledText> scatter_answers(const Result& result);
 /// and work. Of a result with answers (make_answers).
 std::string run_summary(const Case& input, const Result& result, bool verbose = false);
 
+/// The summary and the table of sub-impacts, and what scatter leaves of them, as a run prints them.
+/// This and the next: of a result with answers (make_answers).
+std::string printed_report(const Case& input, const Result& result);
+
+/// The version of the layout of report.json, its key "layout".
+constexpr int report_layout = 1;
+
+/// report.json: what a page shows of a run beside summary.json and its tables, rounded as the
+/// screen rounds it: the table of sub-impacts, doubts, the case with every choice, and what a
+/// drawing needs of the scene.
+std::string report_json(const Case& input, const Result& result);
+
 /// For a run that did not complete: one line with time, mode, method, last event, cause, the times
 /// between which the first check failed and, where the scene is outside the validity of the model,
 /// values with doubtful units.

@@ -96,7 +96,7 @@ struct Answer {
   std::optional<double> from = {};      ///< the value lies between this one and `value`
   std::vector<Item> items = {};
   // Words; errors are in the unit of the text.
-  std::string label = {}, text = {}, error_text = {}, body_text = {}, note = {};
+  std::string label = {}, text = {}, error_text = {}, body_text = {}, total_text = {}, note = {};
 };
 
 /// First words on a run.

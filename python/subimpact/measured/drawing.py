@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import base64
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..page import numbers
 from ..plot.style import COLOURS, GREY, figure, legend_above, unit
 
 if TYPE_CHECKING:
@@ -33,8 +33,7 @@ def thinned(times: Numbers, forces: Numbers, most: int) -> tuple[Numbers, Number
 def packed(times: Numbers, forces: Numbers) -> dict[str, dict[str, str]]:
     """A force as the page reads it."""
     times, forces = thinned(times, forces, _MOST_ROWS)
-    return {"time_s": {"f64": base64.b64encode(times.astype("<f8").tobytes()).decode()},
-            "force_N": {"f32": base64.b64encode(forces.astype("<f4").tobytes()).decode()}}
+    return {"time_s": numbers.packed("f64", times), "force_N": numbers.packed("f32", forces)}
 
 
 def _line(axes: Any, quantity: str, times: Numbers, forces: Numbers, begin: float, end: float, largest: float,

@@ -40,15 +40,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="subimpact plot", description="Draws the figures of a run, a sweep or a study.")
     parser.add_argument("directory", metavar="DIR", help="what subimpact run, work-precision or stability, or "
                         "subimpact-sweep has written")
+    parser.add_argument("others", metavar="DIR", nargs="*", help="runs to compare that run with; --out is needed")
     parser.add_argument("--out", metavar="DIR", help="directory for the figures; default: DIR/figures")
     parser.add_argument("--format", type=_listed, default=FORMATS, metavar="svg,png,pdf", help="file formats; default: all")
     parser.add_argument("--only", type=_listed, default=(), metavar="NAME,...", help="these figures; default: all")
     options = parser.parse_args(arguments)
+    if options.others and not options.out:
+        parser.error("several runs are given; --out DIR must name the directory for the figure that compares them")
     if unknown := set(options.format) - set(FORMATS):
         parser.error(f"--format: {', '.join(sorted(unknown))}; allowed: {', '.join(FORMATS)}")
     matplotlib.use("Agg")
     try:
-        drawn = draw_directory(options.directory, options.out, options.format, options.only)
+        drawn = draw_directory(options.directory, options.out, options.format, options.only, options.others)
     except (ResultsError, OutputError) as error:
         _say(str(error))
         return 2

@@ -8,7 +8,7 @@ import io
 import json
 import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -18,9 +18,10 @@ import numpy as np
 
 from .. import _core
 from .._errors import OutputError, ResultsError
-from .._text import path_text
+from .._text import one_line, path_text
 from ..result import read_results
 from . import beam, run, studies, sweeps
+from .comparison import comparison
 from .style import Absent, style
 
 FORMATS = ("svg", "png", "pdf")
@@ -63,12 +64,16 @@ def read_table(file: str | os.PathLike[str]) -> dict[str, Any]:
     try:
         with open(file, encoding="utf-8", newline="") as text:
             heading, *rows = csv.reader(text, strict=True)
-        columns = [np.array(cells) for cells in zip(*rows, strict=False)] or [np.array([])] * len(heading)
     except (OSError, ValueError, csv.Error) as error:
         raise ResultsError(f"{os.fspath(file)}: cannot be read ({error})") from None
     if any(len(row) != len(heading) for row in rows) or not rows:
         raise ResultsError(f"{os.fspath(file)}: is no table with rows of {len(heading)} cells")
-    return {name: _numbers(cells) for name, cells in zip(heading, columns)}
+    return arrays_of(dict(zip(heading, zip(*rows))))
+
+
+def arrays_of(columns: Mapping[str, Sequence[str]]) -> dict[str, Any]:
+    """Columns of cells as arrays of numbers, NaN in empty cells, or of texts."""
+    return {name: _numbers(np.array(cells)) for name, cells in columns.items()}
 
 
 def _numbers(cells: Any) -> Any:
@@ -78,12 +83,26 @@ def _numbers(cells: Any) -> Any:
         return cells
 
 
+def caption_of(draw: Callable[..., Any]) -> str:
+    return " ".join((draw.__doc__ or "").split())
+
+
 def _figure(draw: Callable[..., Any], *sources: Any, **named: Any) -> Figure:
-    return Figure(functools.partial(draw, *sources, **named), " ".join((draw.__doc__ or "").split()))
+    return Figure(functools.partial(draw, *sources, **named), caption_of(draw))
 
 
-def figures_of(directory: Path) -> dict[str, Figure]:
-    """The figures of a run, a sweep or a study, by their names. Raises ResultsError."""
+def letters(n: int) -> list[str]:
+    """What the runs of a comparison are called: A, B ..."""
+    return [chr(ord("A") + k) if k < 26 else f"run {k + 1}" for k in range(n)]
+
+
+def figures_of(directory: Path, *others: Path) -> dict[str, Figure]:
+    """The figures of a run, a sweep or a study, or of several runs, by their names. Raises ResultsError."""
+    if others:
+        runs = dict(zip(letters(1 + len(others)), (directory, *others)))
+        drawn = _figure(comparison, {letter: read_results(run) for letter, run in runs.items()})
+        named = "; ".join(f"{letter}: {one_line(str(run))}" for letter, run in runs.items())
+        return {"comparison": Figure(drawn.draw, f"{drawn.caption} {named}.")}
 
     def table(name: str) -> dict[str, Any]:
         return read_table(directory / f"{name}.csv")
@@ -121,12 +140,25 @@ def save(axes: Any, path: str | os.PathLike[str], formats: Sequence[str] = FORMA
             made.draw_without_rendering()
             made.set_layout_engine("none")  # as it is now, in every format
             for ending in formats:
-                content = io.BytesIO()
-                made.savefig(content, format=ending, metadata=_METADATA[ending])
-                data = content.getvalue()
-                Path(f"{os.fspath(path)}.{ending}").write_bytes(_compact(data.decode()).encode() if ending == "svg" else data)
+                Path(f"{os.fspath(path)}.{ending}").write_bytes(_content(made, ending))
     finally:
         plt.close(made)
+
+
+def svg_of(axes: Any) -> str:
+    """The figure of these axes as an SVG file, and closes it."""
+    made = np.ravel(axes)[0].figure
+    try:
+        with style():
+            return _content(made, "svg").decode()
+    finally:
+        plt.close(made)
+
+
+def _content(made: Any, ending: str) -> bytes:
+    content = io.BytesIO()
+    made.savefig(content, format=ending, metadata=_METADATA[ending])
+    return _compact(content.getvalue().decode()).encode() if ending == "svg" else content.getvalue()
 
 
 def _compact(svg: str) -> str:
@@ -168,17 +200,17 @@ def _earlier(directory: Path) -> dict[str, str]:
 
 
 def draw_directory(directory: str | os.PathLike[str], out: str | os.PathLike[str] | None = None,
-                   formats: Sequence[str] = FORMATS, only: Sequence[str] = ()) -> Drawn:
+                   formats: Sequence[str] = FORMATS, only: Sequence[str] = (), others: Sequence[str] = ()) -> Drawn:
     """Draws the figures of a run, a sweep or a study into the directory `out`, by default the folder
     `figures` in it, with their captions in figures.json; figures of other results that were drawn there
-    are removed. Raises ResultsError for a directory that holds neither, ValueError for a figure that it
-    has not, OutputError."""
+    are removed. `others`: runs to compare the run with. Raises ResultsError for a directory that holds
+    neither, ValueError for a figure that it has not, OutputError."""
     source = Path(path_text(directory, ResultsError))
-    figures = figures_of(source)
+    figures = figures_of(source, *map(Path, others))
     if unknown := [name for name in only if name not in figures]:
         raise ValueError(f"{', '.join(unknown)}: no figure of {source}; allowed: {', '.join(figures)}")
     target = Path(path_text(out if out is not None else source / "figures", OutputError))
-    identity = identity_of(source)
+    identity = "" if others else identity_of(source)
     with closing(_core.OutputDirectory(str(target), "figures", 0.0, identity)) as output:
         known = _earlier(target) if identity and identity == identity_of(target) else {}
         captions: dict[str, str] = {}

@@ -102,6 +102,7 @@ const Record<Answer>& answer_record() {
       {"text", "value with unit and place, as the screen has it", &Answer::text},
       {"error_text", "error, in the unit of text", &Answer::error_text},
       {"body_text", "body_error, in the unit of text", &Answer::body_text},
+      {"total_text", "both errors together, in the unit of text", &Answer::total_text, Form::empty_is_null},
       {"note", "what else is to be said", &Answer::note, Form::empty_is_null},
       {"items", "of zones: each zone", &Answer::items, item}};
   return record;

@@ -328,6 +328,9 @@ void add_numbers(const Case& input, const Result& result, Answer& answer) {
     part.text = part.change ? rough(*part.change) : "not known";
     part.remedy = remedy_of(part.kind);
   }
+  if (answer.error && answer.body_error) {
+    answer.total_text = rough(std::hypot(*answer.error, *answer.body_error));
+  }
   answer.body_text = answer.body_error ? rough(*answer.body_error)
                      : at_least > 0.0  ? "at least " + rough(at_least)
                                        : "not known";

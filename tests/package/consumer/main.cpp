@@ -3,7 +3,7 @@
 
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/results.h"
-#include "subimpact/report/pages.h"
+#include "subimpact/report/text.h"
 #include "subimpact/study/compare.h"
 
 static_assert(__cplusplus >= 202002L, "C++20 comes with subimpact::subimpact");
@@ -21,8 +21,9 @@ int main(int argc, char**) {
                        .yield_stress = 150e6};
   strike.scene.striker = {.mass = 0.201, .nose_radius = 0.01, .velocity = 15.9};
   strike.end_time = 5e-4;
-  const subimpact::Result result = subimpact::simulate(strike);
-  if (argc > 1) std::puts(subimpact::html_report({}).c_str());
+  subimpact::Result result = subimpact::simulate(strike);
+  subimpact::make_answers(strike, result);
+  if (argc > 1) std::puts(subimpact::report_json(strike, result).c_str());
   std::printf("subimpact %s: %zu sub-impacts\n", subimpact::project_version().c_str(),
               result.sub_impacts.size());
   return result.sub_impacts.empty() ? 1 : 0;

@@ -7,10 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -19,10 +21,9 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
-#include "subimpact/io/case_file.h"
-#include "subimpact/io/read_results.h"
-#include "subimpact/io/results.h"
+#include "io/directory/listed_files.h"
 
 namespace subimpact {
 namespace {
@@ -227,23 +228,33 @@ class Interruptions {
     fmt::print("WRONG: {}\n", what);
   }
 
-  // Which run's results a reader finds; -1: none. What it finds must be whole.
+  // Which run's results a reader finds in a directory. What it finds must be whole. Throws.
+  int variant_in(const fs::path& directory) {
+    const ListedFiles files(directory);
+    const auto summary = nlohmann::json::parse(files.text("summary.json"));
+    const std::size_t n_rows = summary.at("counts").at("history_rows");
+    for (const char* table : {"history.csv", "sections.csv"}) {
+      const std::string text = files.text(table);
+      const auto n = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+      expect(n == 1 + n_rows, fmt::format("{} rows of {} in {}", n, 1 + n_rows, table));
+      const double last = std::stod(text.substr(text.rfind('\n', text.size() - 2) + 1));
+      expect(last == summary.at("outcome").at("time_s"), "the last row is not that of the end");
+    }
+    for (int variant = 0; variant < n_variants; ++variant) {
+      if (summary.at("case").at("time").at("end") == end_of(variant)) return variant;
+    }
+    expect(false, "results of no run");
+    return -1;
+  }
+
+  // In the directory of the runs; -1: none.
   int found() {
     try {
-      const FinishedRun run = read_results(out());
-      const Result& result = run.result;
-      expect(result.history.size() == result.n_history_rows, "rows are missing");
-      expect(result.section_history.size() == result.n_history_rows, "section rows are missing");
-      expect(!result.history.empty() && result.history.back().time == result.outcome.time,
-             "the last row is not that of the end");
-      for (int variant = 0; variant < n_variants; ++variant) {
-        if (run.input.end_time == end_of(variant)) return variant;
-      }
-      expect(false, "results of no run");
-    } catch (const ResultsError& error) {
+      return variant_in(out());
+    } catch (const std::exception& error) {
       expect(false, fmt::format("refused: {}", error.what()));
+      return -1;
     }
-    return -1;
   }
 
   fs::path place_;

@@ -1,0 +1,200 @@
+"""Pages of a sweep and of several runs: plain, with the figures of `subimpact.plot`, drawn here."""
+
+from __future__ import annotations
+
+import math
+import os
+import shlex
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Optional
+
+import matplotlib
+import numpy as np
+
+from .. import _core
+from .._errors import ResultsError
+from .._files import Files
+from ..case import keys
+from ..plot import Absent, comparison, histograms, sweep_map
+from ..plot.directory import arrays_of, caption_of, letters, svg_of
+from ..result import Result, read_results
+from .markup import escaped, figures, headlines, in_print, paragraphs, table, tiles, whole
+from .run import errors_of
+
+_MAPPED = ("n_sub_impacts", "max_force_N", "restitution", "permanent_set_m")
+_SHOWN = ("outcome", "n_sub_impacts", "n_certain", "max_force_N", "impulse_Ns", "restitution", "permanent_set_m", "message")
+_MOST_ROWS = 2000
+
+Pair = tuple[Optional[int], Optional[int]]  # of sub-impacts of two runs that correspond
+
+
+def _figures(drawings: Mapping[str, Callable[[], Any]], captions: Mapping[str, str]) -> str:
+    """The figures that can be drawn, and why others cannot."""
+    matplotlib.use("Agg")
+    drawn, left_out = [], []
+    for name, draw in drawings.items():
+        try:
+            drawn.append((name, captions[name], svg_of(draw())))
+        except Absent as reason:
+            left_out.append(f"{name}: {reason}")
+    return f'<div class="stills open" id="stills">\n{figures(drawn)}</div>\n' + paragraphs(left_out, before="Not drawn: ")
+
+
+def _counted(n: int, noun: str) -> str:
+    return f"{n} {noun}" + ("" if n == 1 else "s")
+
+
+def _certainty(columns: Mapping[str, Any], outcomes: Counter[str], n: int) -> str:
+    lines = [(False, "Not certain:", "counts, times and order of sub-impacts: the sweep was made without error bars, so that no run "
+              "states how far they can be trusted.")]
+    if "all_certain" in columns:
+        certain = columns["all_certain"]
+        n_certain, n_doubtful = int((certain == 1).sum()), int((certain == 0).sum())
+        lines = [(True, "Certain:", f"count and order of the sub-impacts in {n_certain} of {_counted(n, 'run')}.")] if n_certain else []
+        if n_doubtful:
+            lines.append((False, "Not certain:", f"the counts of {_counted(n_doubtful, 'run')}, which the map hatches; a pattern among "
+                          "them may be that of their errors."))
+    return headlines([*lines, *((False, "Not certain:", f'{_counted(k, "run")} with the outcome "{kind}".')
+                                for kind, k in sorted(outcomes.items()) if kind != "completed")])
+
+
+def _values(column: Any, unit: str) -> str:
+    if column.dtype.kind == "U":
+        return f"{len(set(column.tolist()))} different texts"
+    known = column[np.isfinite(column)]
+    return f"{len(np.unique(known))} different, {known.min():.6g} to {known.max():.6g} {unit}" if len(known) else ""
+
+
+def sweep_page(files: Files) -> str:
+    """A map of the runs of a sweep over two of their keys, how their numbers are distributed, and a table. Raises ResultsError."""
+    path = files.directory / "runs.csv"
+    rows = files.table("runs.csv")
+    files.open("sub_impacts.csv").close()
+    for name in ("run", "outcome"):
+        if rows and name not in rows[0]:
+            raise ResultsError(f"{path}: has no column {name}; its columns are {', '.join(rows[0])}; run the sweep again; it keeps the "
+                               "runs in its store")
+    if not rows:
+        raise ResultsError(f"{path}: has no run yet; run the sweep again; it keeps the runs in its store")
+    names = list(rows[0])
+    columns = arrays_of({name: [row[name] for row in rows] for name in names})
+    all_keys, known = names[names.index("run") + 1 : names.index("outcome")], keys()
+    outcomes = Counter(row["outcome"] for row in rows)
+    counts = columns.get("n_sub_impacts", np.array([]))
+    shown = [("runs", str(len(rows)), ""), ("completed", str(outcomes["completed"]), "")]
+    if counts.dtype.kind == "f" and np.isfinite(counts).any():
+        shown.append(("sub-impacts per run", f"{np.nanmin(counts):.0f} to {np.nanmax(counts):.0f}", ""))
+    mapped = [name for name in _MAPPED if name in columns and columns[name].dtype.kind == "f" and np.isfinite(columns[name]).any()]
+    drawings: dict[str, Callable[[], Any]] = {f"map-{name}": lambda name=name: sweep_map(columns, column=name)  # type: ignore[misc]
+                                              for name in mapped}
+    drawings["histograms"] = lambda: histograms(columns)
+    captions = dict.fromkeys(drawings, caption_of(sweep_map)) | {"histograms": caption_of(histograms)}
+    units = {key: known[key].unit if key in known else "" for key in all_keys}
+    base = files.directory / "base.toml"
+    command = " ".join(["subimpact run", shlex.quote(str(base) if base.exists() else "CASE.toml"), f"--out run-{rows[0]['run']}",
+                        *(f"--set {shlex.quote(f'{key}={rows[0][key]}')}" for key in all_keys)])
+    listed = ["run", *all_keys, *(name for name in _SHOWN if name in names)]
+    body = (f'<ul class="headline">\n{_certainty(columns, outcomes, len(rows))}</ul>\n<div class="tiles">\n{tiles(shown)}</div>\n'
+            "<h2>Keys that differ</h2>\n"
+            + table(["key", "meaning", "values"], [(key, known[key].meaning if key in known else "", _values(columns[key], units[key]))
+                                                   for key in all_keys])
+            + "<h2>Figures</h2>\n" + _figures(drawings, captions)
+            + "<h2>Runs</h2>\n" + table(listed, [[row[name] for name in listed] for row in rows[:_MOST_ROWS]], "runs")
+            + paragraphs([f"The first {_MOST_ROWS} of {len(rows)} runs are shown; runs.csv has all"] if len(rows) > _MOST_ROWS else [])
+            + f"<p>To make one of them alone, with the errors of its mesh too; the first, for example:</p>\n<pre>{escaped(command)}</pre>\n")
+    return whole(f"Sweep: {files.directory}", body)
+
+
+def _signed(x: float, decimals: int) -> str:
+    return f"{x:+.{decimals}f}".replace("-", "−")
+
+
+def _times(result: Result) -> list[tuple[float, float]]:
+    """Starts and ends of sub-impacts, s; infinity: still in contact."""
+    hits = result.sub_impacts
+    return list(zip(hits["start_s"].tolist(), np.nan_to_num(hits["end_s"], nan=math.inf).tolist()))
+
+
+def n_leading(pairs: Sequence[Pair]) -> int:
+    """How many pairs from the first on have both."""
+    return next((n for n, pair in enumerate(pairs) if None in pair), len(pairs))
+
+
+def _pair_row(pair: Pair, first: Any, second: Any) -> list[str]:
+    """A row of the table that compares two runs, of their tables of sub-impacts."""
+    a, b = (None if k is None else hits[k] for k, hits in zip(pair, (first, second)))
+    cells = ["none" if k is None else str(k + 1) for k in pair]
+    cells.append(f"{1e6 * (b if a is None else a)['start_s']:.3f}")
+    if a is None or b is None:
+        return cells + [""] * 5
+    later = 1e6 * (b["end_s"] - a["end_s"])
+    errors = 1e6 * (a["start_error_s"] + b["start_error_s"])
+    return [*cells, _signed(1e6 * (b["start_s"] - a["start_s"]), 4), "" if math.isnan(later) else _signed(later, 4),
+            "not known" if math.isnan(errors) else f"± {errors:.4f}",
+            *(_signed(100 * (b[name] / a[name] - 1), 3) if a[name] else "" for name in ("peak_force_N", "impulse_Ns"))]
+
+
+def _pair_words(pairs: Sequence[Pair], first: Sequence[tuple[float, float]], second: Sequence[tuple[float, float]], letter: str) -> str:
+    n = n_leading(pairs)
+    largest = max((abs(first[k][0] - second[k][0]) for k in range(n)), default=0.0)
+    words = "The first sub-impacts correspond" if n == 1 else f"The first {_counted(n, 'sub-impact')} correspond one to one"
+    if n:
+        words += f"; their starts differ by {1e6 * largest:.2g} us at most"
+    if n < len(pairs):
+        i, k = pairs[n]
+        start, end = first[i] if i is not None else second[k or 0]
+        words += (f"; from {1e6 * start:.6g} us on they differ: a contact of {1e6 * (end - start):.4g} us is in only one of A and "
+                  f"{letter}")
+    return words + "."
+
+
+def _flat(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for name, value in tables.items():
+        flat.update(_flat(value, f"{prefix}{name}.") if isinstance(value, dict) else {prefix + name: value})
+    return flat
+
+
+def _differing(summaries: Sequence[Mapping[str, Any]]) -> list[list[str]]:
+    cases = [_flat(summary["case"]) for summary in summaries]
+    units = summaries[0]["case_units"]
+    return [[key, *("–" if case.get(key) is None else f"{case[key]} {units.get(key, '')}" for case in cases)]
+            for key in cases[0] if any(case.get(key) != cases[0][key] for case in cases)]
+
+
+def _answers(reports: Sequence[Mapping[str, Any]], summaries: Sequence[Mapping[str, Any]]) -> list[list[str]]:
+    """What is asked of each run first, and how it was computed."""
+    lists = [{answer["label"]: f"{answer['text']} {errors_of(answer)}" for answer in summary["answers"] if answer["known"]}
+             for summary in summaries]
+    for of_run, report, summary in zip(lists, reports, summaries):
+        of_run.update({"outcome": summary["outcome"]["kind"], "mesh": summary["used"]["mesh"], "method": summary["used"]["method"],
+                       "time to compute": report["computed_in"]})
+    labels = list(dict.fromkeys(label for of_run in lists for label in of_run))
+    return [[label, *(of_run.get(label, "–") for of_run in lists)] for label in labels]
+
+
+def comparison_page(directories: Sequence[str]) -> str:
+    """The curves of several runs in one figure, the keys in which their cases differ, and the sub-impacts of each matched with
+    those of the first. Raises ResultsError."""
+    results = [read_results(directory) for directory in directories]
+    summaries, reports = [result.summary for result in results], [result.report_data for result in results]
+    names = letters(len(results))
+    times = [_times(result) for result in results]
+    heading = ["no. in A", "", "start in A, µs", "starts later, µs", "ends later, µs", "error bars, µs", "peak force, %", "impulse, %"]
+    lines, pairs_of = [], []
+    for letter, result, of_run in list(zip(names, results, times))[1:]:
+        pairs = _core.matched(times[0], of_run)
+        words = _pair_words(pairs, times[0], of_run, letter)
+        lines.append((n_leading(pairs) == len(pairs), f"{letter} compared with A:", words))
+        heading[1] = f"no. in {letter}"
+        pairs_of.append(f"<h2>Sub-impacts of {letter} compared with those of A</h2>\n<p>{in_print(words)}</p>\n"
+                        + table(heading, [_pair_row(pair, results[0].sub_impacts, result.sub_impacts) for pair in pairs]))
+    lines += [(False, "Not certain:", f"{letter}: {report['caveat']}.") for letter, report in zip(names, reports) if report["caveat"]]
+    different = _differing(summaries)
+    runs = table(["", *(f"{letter}: {os.fspath(directory)}" for letter, directory in zip(names, directories))], _answers(reports, summaries))
+    body = (f'<ul class="headline">\n{headlines(lines)}</ul>\n<h2>Runs</h2>\n{runs}<h3>Keys of the cases that differ</h3>\n'
+            + (table(["key", *names], different) if different else "<p>None: the cases are the same.</p>\n") + "<h2>Curves</h2>\n"
+            + _figures({"comparison": lambda: comparison(dict(zip(names, results)))}, {"comparison": caption_of(comparison)})
+            + "".join(pairs_of) + f'<p class="sub">subimpact {escaped(summaries[0]["program"]["version"])}</p>\n')
+    return whole(f"Comparison: {summaries[0]['case']['title'] or 'a strike'}", body)
