@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -200,9 +201,8 @@ class Case:
 
     def run(self, **options: Any) -> Result:
         """The results of `subimpact.run(case, ...)`, with its options."""
-        from .running import run
-
-        return run(self, **options)
+        result: Result = import_module(".running", __package__).run(self, **options)
+        return result
 
     def given(self) -> dict[str, Any]:
         """The keys that the case gives, with their values; all others have their defaults."""

@@ -8,6 +8,7 @@ import os
 import tempfile
 from functools import cached_property
 from html import escape
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from . import _core
@@ -18,8 +19,6 @@ from ._text import path_text
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
-
-    from .case import Case
 
     Table = npt.NDArray[np.void]
 
@@ -86,11 +85,9 @@ class Result:
         return verdict
 
     @property
-    def case(self) -> Case:
-        """The case that was run, with every choice made: of mesh, method, theory ..."""
-        from .case import Case
-
-        return Case.from_text(self.report_data["case"])
+    def case(self) -> Any:
+        """The Case that was run, with every choice made: of mesh, method, theory ..."""
+        return import_module(".case", __package__).Case.from_text(self.report_data["case"])
 
     @property
     def outcome(self) -> str:
@@ -200,9 +197,7 @@ class Result:
     def plot(self, axes: Any = None) -> Any:
         """Draws the contact force over time, sub-impacts shaded; returns the axes of Matplotlib. Other
         figures: `subimpact.plot`."""
-        from .plot import force
-
-        return force(self, axes)
+        return import_module(".plot", __package__).force(self, axes)
 
 
 def read_results(directory: str | os.PathLike[str]) -> Result:
