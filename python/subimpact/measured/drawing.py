@@ -68,7 +68,8 @@ def draw_all(a: Any, axes: Any) -> None:
     """The measured force and the computed one on the time of the run, their difference (computed less measured), and both
     about the largest force."""
     draw_forces(a, axes[0])
-    _line(axes[1], a.quantity, *a.difference, a.begin, a.end, float(np.abs(a.difference[1]).max()), color=GREY)
+    times, difference = a.difference
+    _line(axes[1], a.quantity, times, difference, a.begin, a.end, float(np.abs(difference).max()), color=GREY)
     axes[1].set_ylabel("difference" + axes[1].get_ylabel().removeprefix(a.quantity))
     half, peak = 0.03 * (a.end - a.begin), a.measured.peak_time
     draw_forces(a, axes[2], max(a.begin, peak - half), min(a.end, peak + half), marker=".", markersize=3)

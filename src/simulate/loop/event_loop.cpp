@@ -17,9 +17,6 @@ constexpr long most_events_in_place = 64;
 // displacements, velocities and times.
 constexpr double tolerated_rounding = 64.0;
 
-// Steps for which a run with a wrong energy is continued, to decide whether it is unstable.
-constexpr long most_steps_ahead = 20000;
-
 ContactBranch branch_after(EventKind kind) {
   if (kind == EventKind::contact_yields) return ContactBranch::plastic;
   return kind == EventKind::contact_ends ? ContactBranch::separated : ContactBranch::elastic;
@@ -31,8 +28,8 @@ EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& obse
                      const LoopOptions& options)
     : beam_(beam),
       integrator_(integrator),
-      observer_(&observer),
-      audit_(&audit),
+      observer_(observer),
+      audit_(audit),
       options_(options),
       corrector_(beam, options.correction_tolerance),
       locator_(beam, integrator, corrector_, options.events, options.double_roots),
@@ -49,7 +46,7 @@ void EventLoop::start() {
   state_ = &end_state_;
   beam_.commit(y);
   if (options_.begins_apart) return start_from(y);
-  if (options_.first_touch > 0.0) observer_->on_approach(options_.first_touch, beam_);
+  if (options_.first_touch > 0.0) observer_.on_approach(options_.first_touch, beam_);
   report({EventKind::contact_begins}, options_.first_touch, y, true);
   start_from(y);
 }
@@ -79,47 +76,27 @@ void EventLoop::advance() {
                   indentation_.rate1,       beam_.indentation(end), beam_.indentation_rate(end)};
   check_step_end();
   const bool suspicious =
-      audit_->is_suspicious(indentation_.t1, end, indentation_.lambda1, indentation_.rate1);
+      audit_.is_suspicious(indentation_.t1, end, indentation_.lambda1, indentation_.rate1);
   if (options_.events == EventHandling::interpolated) {
     interpolate_events();
   } else {
     locate_events();
   }
   check_accepted(suspicious);
-  observer_->on_accepted(time_, *state_, beam_);
+  observer_.on_accepted(time_, *state_, beam_);
 }
 
 void EventLoop::check_step_end() {
   // A step of flight may be long; only its part before the touch counts.
   if (!beam_.contact().is_closed() && options_.events != EventHandling::interpolated) return;
   if (!(indentation_.lambda1 >= options_.largest_indentation)) return;
-  audit_->check(integrator_.time(), integrator_.state());  // a blow-up is called by its name
+  audit_.check(integrator_.time(), integrator_.state());  // a blow-up is called by its name
   throw RunStopped(OutcomeKind::left_validity,
                    "the indentation reached " + options_.end_of_law + "; " + options_.remedy);
 }
 
 void EventLoop::check_accepted(bool now) {
-  if (now || finished() || n_steps_ % options_.audit_interval == 0) audit_->check(time_, *state_);
-}
-
-bool EventLoop::energy_keeps_growing() {
-  Audit without_limits = audit_->without_limits();
-  RunObserver nobody;
-  audit_ = &without_limits;
-  observer_ = &nobody;
-  const State y = *state_;
-  beam_.commit(y);  // a check at an event may have failed before
-  try {
-    integrator_.restart(time_, y);
-    for (long n = 0; n < most_steps_ahead && !finished(); ++n) {
-      advance();
-      audit_->check(time_, *state_);
-    }
-  } catch (const RunStopped& stop) {
-    return stop.kind == OutcomeKind::unstable;
-  } catch (const IntegrationFailure&) {
-  }
-  return false;
+  if (now || finished() || n_steps_ % options_.audit_interval == 0) audit_.check(time_, *state_);
 }
 
 StepEnds EventLoop::step_to_end_time() {
@@ -151,7 +128,7 @@ IndentationStep EventLoop::indentation_of(const StepEnds& piece) const {
 void EventLoop::show_piece(const StepEnds& piece, bool from_end) {
   const IndentationStep indentation = indentation_of(piece);
   const ObservedStep step(piece, indentation, integrator_, corrector_, from_end);
-  observer_->on_step(step, beam_);
+  observer_.on_step(step, beam_);
   if (beam_.has_losses()) {
     beam_.add_losses(losses_.over(step, step.t1(), step.y1(), beam_));
   }
@@ -202,7 +179,7 @@ void EventLoop::report_reversals() {
   }
   std::sort(reversals_.begin(), reversals_.end(),
             [](const Transition& a, const Transition& b) { return a.time < b.time; });
-  for (const Transition& reversal : reversals_) observer_->on_reversal(reversal);
+  for (const Transition& reversal : reversals_) observer_.on_reversal(reversal);
 }
 
 void EventLoop::report(const EventFunction& function, double time, const State& y,
@@ -215,18 +192,18 @@ void EventLoop::report(const EventFunction& function, double time, const State& 
   const Transition event{time, function.kind, {}, beam_.indentation(y)};
   if (changes_branch) check_root(function, time, y);
   watch_for_chattering(time);
-  const bool audited = observer_->audits_events();
-  if (!audited) audit_->check(time, y);
+  const bool audited = observer_.audits_events();
+  if (!audited) audit_.check(time, y);
   ++n_events_;
-  observer_->before_event(event, y, beam_);
+  observer_.before_event(event, y, beam_);
   if (changes_branch) {
     beam_.commit(y);
     beam_.contact().pass(function, beam_.indentation(y));
   } else {
     beam_.contact().set(branch_after(function.kind), beam_.contact().history());
   }
-  if (!audited) audit_->check(time, y);
-  observer_->after_event(event, y, beam_);
+  if (!audited) audit_.check(time, y);
+  observer_.after_event(event, y, beam_);
 }
 
 void EventLoop::check_root(const EventFunction& function, double time, const State& y) {
@@ -235,21 +212,21 @@ void EventLoop::check_root(const EventFunction& function, double time, const Sta
   double tolerated = tolerated_rounding * rounding_of(function, beam_, y, time, at);
   if (const auto root = integrator_.root()) tolerated += std::abs(at.rate) * root->tolerance;
   if (!(std::abs(at.value) <= tolerated)) {
-    audit_->fail(time, OutcomeKind::inaccurate,
-                 "{} was located at {:.6g} us, but its condition is missed there by {:.2e} {}, "
-                 "tolerated are {:.1e}",
-                 to_string(function.kind), us * time, at.value, function.of_rate() ? "m/s" : "m",
-                 tolerated);
+    audit_.fail(time, OutcomeKind::inaccurate,
+                "{} was located at {:.6g} us, but its condition is missed there by {:.2e} {}, "
+                "tolerated are {:.1e}",
+                to_string(function.kind), us * time, at.value, function.of_rate() ? "m/s" : "m",
+                tolerated);
   }
   if (!(time >= last_event_)) {
-    audit_->fail(time, OutcomeKind::inaccurate,
-                 "{} was located at {:.6g} us, before the event that precedes it",
-                 to_string(function.kind), us * time);
+    audit_.fail(time, OutcomeKind::inaccurate,
+                "{} was located at {:.6g} us, before the event that precedes it",
+                to_string(function.kind), us * time);
   }
   if (function.kind == EventKind::contact_begins) contact_start_ = time;
   if (function.kind == EventKind::contact_ends && !(time > contact_start_)) {
-    audit_->fail(time, OutcomeKind::inaccurate,
-                 "the contact that begins at {:.6g} us ends at the same instant", us * time);
+    audit_.fail(time, OutcomeKind::inaccurate,
+                "the contact that begins at {:.6g} us ends at the same instant", us * time);
   }
   last_event_ = time;
 }
@@ -260,9 +237,9 @@ void EventLoop::watch_for_chattering(double time) {
     n_events_in_place_ = 0;
   }
   if (++n_events_in_place_ <= most_events_in_place) return;
-  audit_->fail(time, OutcomeKind::chattering,
-               "the contact changed its state {} times within {:.2e} us", n_events_in_place_,
-               us * (time - events_since_));
+  audit_.fail(time, OutcomeKind::chattering,
+              "the contact changed its state {} times within {:.2e} us", n_events_in_place_,
+              us * (time - events_since_));
 }
 
 void EventLoop::interpolate_events() {

@@ -72,10 +72,6 @@ class EventLoop {
   /// or RunStopped; time() and state() are then those of the last state that was accepted.
   void advance();
 
-  /// After advance() found the energy too high: whether it grows without bound in the steps that
-  /// follow. Observers do not receive these steps; the loop cannot continue afterwards.
-  bool energy_keeps_growing();
-
   bool finished() const { return time_ >= options_.end_time; }
   double time() const { return time_; }
   const State& state() const { return *state_; }
@@ -104,8 +100,8 @@ class EventLoop {
 
   StruckBeam& beam_;
   Integrator& integrator_;
-  RunObserver* observer_;
-  Audit* audit_;
+  RunObserver& observer_;
+  Audit& audit_;
   LoopOptions options_;
   double time_ = 0.0;
   const State* state_ = nullptr;
