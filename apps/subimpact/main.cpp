@@ -36,9 +36,6 @@ std::optional<std::string> unknown_command(const CLI::App& program, int argc, ch
     return fmt::format("unknown option \"{}\"; a command comes first; see subimpact --help",
                        argv[1]);
   }
-  if (argv[1] == std::string_view("plan")) {
-    return "\"plan\" was removed; use subimpact explain CASE --within TIME";
-  }
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return std::nullopt;

@@ -41,7 +41,7 @@ ALLOWED = {
     "apps/subimpact/run.cpp: next_steps()": "an option",
 }
 
-search = re.compile(r"""[=!]=\s*"(.+?)"|(?:\.r?find|\.(?:starts|ends)_with|\.contains|find_(?:first|last)_of)\(\s*["'](.*?)["']""")
+search = re.compile(r"""[=!]=\s*(?:std::string(?:_view)?\()?"(.+?)"|(?:\.r?find|\.(?:starts|ends)_with|\.contains|find_(?:first|last)_of)\(\s*["'](.*?)["']""")
 key = re.compile(r"[a-z_]+\.[a-z_.]*")
 
 

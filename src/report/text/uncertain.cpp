@@ -304,7 +304,7 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
     std::vector<Cell> cells;
     for (const SubImpact& s : all) {
       cells.push_back(cell_of(column, result, s));
-      if (quantity.name == std::string_view("end") && !s.end) cells.back() = {"(open)", {}};
+      if (quantity.value == in<&SubImpact::end> && !s.end) cells.back() = {"(open)", {}};
     }
     auto [texts, width] = column_texts(cells, plus_minus);
     add_column({quantity.name, quantity.before_unit + column.unit.name, quantity.least_width},

@@ -24,10 +24,11 @@ struct RunNumber {
   const char* name;
   double (*of)(const Result&);
 };
+double velocity_of(const Result& run) { return run.striker_velocity; }
 constexpr RunNumber totals[] = {
     {"sub_impacts", [](const Result& run) { return static_cast<double>(run.sub_impacts.size()); }},
     {"restitution", [](const Result& run) { return run.restitution.value_or(NAN); }},
-    {"striker_velocity_m_per_s", [](const Result& run) { return run.striker_velocity; }},
+    {"striker_velocity_m_per_s", velocity_of},
     {"peak_force_N", [](const Result& run) { return run.max_force; }},
     {"impulse_Ns", [](const Result& run) { return run.impulse(); }},
     {"dent_m",
@@ -129,7 +130,7 @@ std::size_t add_samples(Predictability& predictability, const Case& input,
     for (const auto& of_one : samples) values.push_back((*of_one)[k]);
     if (std::ranges::any_of(values, [](double x) { return std::isnan(x); })) continue;
     predictability.totals.push_back(summary_of(totals[k].name, std::move(values)));
-    if (totals[k].name == std::string("striker_velocity_m_per_s")) {
+    if (totals[k].of == velocity_of) {
       predictability.striker_velocity_scatter = predictability.totals.back().deviation;
     }
   }
