@@ -28,6 +28,14 @@ TEST(APlot, WithoutPythonEndsWithStatus2AndOneLineThatSaysHowToGetIt) {
   EXPECT_EQ(count_in(errors, "\n"), 1u);
 }
 
+TEST(ThePython, OfTheProgramFindsItsPackageAndTakesAllArguments) {
+  const char* look = "import importlib.util as u; print(u.find_spec('subimpact').origin)";
+  expect_in(run_anywhere({"python", "-c", look}, 0).output, "python/subimpact/__init__.py");
+  run_anywhere({"python", "-c", "import sys; sys.exit(len(sys.argv))", "--help", "-x"}, 3);
+  const Environment nowhere("SUBIMPACT_PYTHON_EXECUTABLE", "/nowhere/python3");
+  expect_in(run_anywhere({"python"}, 2).errors, "/nowhere/python3: cannot be run");
+}
+
 TEST_F(ARun, KeepsSectionsWithErrorBarsToo) {
   run_in(directory, paper("run", {"time.end=1e-4", "model.segments=51", "output.sections=0.5"},
                           {"--out", "here", "--error-bars"}));
