@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "numerics/median.h"
+#include "numerics/estimates.h"
 
 namespace subimpact {
 namespace {

@@ -1,5 +1,5 @@
+#include "numerics/estimates.h"
 #include "numerics/gauss.h"
-#include "numerics/richardson.h"
 #include "testing.h"
 
 namespace subimpact {

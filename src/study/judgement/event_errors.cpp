@@ -7,7 +7,7 @@
 
 #include "case/counted.h"
 #include "case/problem.h"
-#include "numerics/median.h"
+#include "numerics/estimates.h"
 #include "study/method_choice.h"
 #include "subimpact/study/judgement/judgement.h"
 

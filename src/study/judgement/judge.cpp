@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/median.h"
+#include "numerics/estimates.h"
 #include "study/judgement/mesh_resolution.h"
 #include "subimpact/study/judgement/match.h"
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <ranges>
 
-#include "numerics/richardson.h"
+#include "numerics/estimates.h"
 #include "study/judgement/judge.h"
 #include "subimpact/study/judgement/match.h"
 #include "subimpact/study/other_mesh.h"

@@ -8,7 +8,7 @@
 
 #include "case/problem.h"
 #include "case/shifted_case.h"
-#include "numerics/median.h"
+#include "numerics/estimates.h"
 #include "simulate/settings/methods.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/richardson.h"
+#include "numerics/estimates.h"
 #include "study/refinement/refinement.h"
 #include "subimpact/study/judgement/judgement.h"
 #include "subimpact/study/judgement/match.h"

@@ -1,9 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
 
 namespace subimpact {
+
+/// The upper median; 0 of no values.
+inline double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 // Richardson extrapolation of values v(h) = v(0) + c h^p, computed with mesh widths or steps h that
 // get finer.
