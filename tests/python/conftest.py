@@ -3,10 +3,13 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 import subimpact as si
+
+README_STRIKE = (Path(__file__).parents[2] / "README.md").read_text().split("```toml\n")[1].split("```")[0]
 
 PROGRAM = os.environ.get("SUBIMPACT_PROGRAM", "subimpact")
 
