@@ -65,12 +65,6 @@ void add_body_error(const Result& result, Answer& answer) {
   std::ranges::stable_sort(answer.parts, {}, size);
 }
 
-Answer unknown(AnswerKey key, std::string_view unit, WhyNot why) {
-  Answer answer{key, unit};
-  answer.why = why;
-  return answer;
-}
-
 // Strain of the outer fibre at which a section first yields.
 double first_yield_strain(const Case& input, const Result& result) {
   const double n = input.model.layers;
@@ -89,15 +83,31 @@ class Answers {
  public:
   Answers(const Case& input, const Result& result) : input_(input), result_(result) {}
 
+  // In the order of the keys.
   std::vector<Answer> all() {
     add_counts();
-    add_contact();
+    Answer& force = add(AnswerKey::largest_force, "N", if_touched(result_.max_force), no_contact,
+                        RunTotal::peak_force);
+    if (is_touched_) {
+      const auto hit = std::ranges::max_element(hits_, {}, &SubImpact::peak_force);
+      force.time = hit->peak_time;
+      force.certain = hit->certain;
+    }
     add_times();
     add_velocities();
+    add(AnswerKey::impulse, "N s", if_touched(result_.impulse()), no_contact, RunTotal::impulse);
+    add_zones();
+    add(AnswerKey::indentation, "m", if_touched(result_.max_indentation), no_contact,
+        RunTotal::max_indentation);
+    const double dent = is_touched_ ? hits_.back().residual_indentation : 0.0;
+    add(AnswerKey::dent, "m", dent > 0.0 ? std::optional(dent) : std::nullopt,
+        is_touched_ ? stays_elastic : no_contact, RunTotal::residual_indentation);
+    add_pressure();
     add_bending();
     add_supports();
-    add_energy();
-    std::ranges::stable_sort(all_, {}, &Answer::key);
+    const Energies& end = result_.final_energies;
+    add(AnswerKey::energy, "J", end.bending_plastic + end.contact_plastic + end.beam_damping, fixed,
+        RunTotal::dissipated);
     for (Answer& answer : all_) {
       if (answer.value) add_body_error(result_, answer);
     }
@@ -105,213 +115,179 @@ class Answers {
   }
 
  private:
-  const std::vector<SubImpact>& hits() const { return result_.sub_impacts; }
-
-  Answer& add(AnswerKey key, std::string_view unit, double value, std::optional<RunTotal> total) {
-    Answer& answer = all_.emplace_back(Answer{key, unit, value});
-    if (total) answer.error = error_of_total(result_, *total);
-    return answer;
+  std::optional<double> if_touched(double value) const {
+    return is_touched_ ? std::optional(value) : std::nullopt;
   }
-  void add_unknown(AnswerKey key, std::string_view unit, WhyNot why) {
-    all_.push_back(unknown(key, unit, why));
+
+  // `otherwise`: why there is no value.
+  Answer& add(AnswerKey key, std::string_view unit, std::optional<double> value, WhyNot otherwise,
+              std::optional<RunTotal> total = {}) {
+    Answer& answer = all_.emplace_back(Answer{key, unit, value});
+    if (!value) answer.why = otherwise;
+    if (value && total) answer.error = error_of_total(result_, *total);
+    return answer;
   }
 
   void add_counts() {
-    const auto n = static_cast<double>(hits().size());
-    Answer& count = add(AnswerKey::sub_impacts, "", n, RunTotal::sub_impacts);
-    if (result_.error_estimate) count.certain = result_.all_certain();
-    if (result_.error_estimate && result_.error_estimate->joined) {
-      const auto& [opening, n_joined, n_certain] = *result_.error_estimate->joined;
-      Answer& joined = add(AnswerKey::joined, "", static_cast<double>(n_joined), std::nullopt);
-      joined.error = static_cast<double>(n_joined - n_certain);
-      joined.certain = n_joined == n_certain;
-    } else {
-      add_unknown(AnswerKey::joined, "", none_uncertain);
+    const auto& estimate = result_.error_estimate;
+    Answer& count = add(AnswerKey::sub_impacts, "", static_cast<double>(hits_.size()), no_contact,
+                        RunTotal::sub_impacts);
+    if (estimate) count.certain = result_.all_certain();
+    if (!estimate || !estimate->joined) {
+      add(AnswerKey::joined, "", std::nullopt, none_uncertain);
+      return;
     }
-    add_zones();
+    const auto& [opening, n, n_certain] = *estimate->joined;
+    Answer& joined = add(AnswerKey::joined, "", static_cast<double>(n), none_uncertain);
+    joined.error = static_cast<double>(n - n_certain);
+    joined.certain = n == n_certain;
   }
 
   void add_zones() {
-    const std::vector<ZoneSummary> zones = summarise_zones(hits());
+    const std::vector<ZoneSummary> zones = summarise_zones(hits_);
     const auto& estimate = result_.error_estimate;
     const bool has_totals = estimate && estimate->zones.size() == zones.size();
-    Answer& answer = add(AnswerKey::zones, "", static_cast<double>(zones.size()), RunTotal::zones);
+    Answer& answer =
+        add(AnswerKey::zones, "", static_cast<double>(zones.size()), no_contact, RunTotal::zones);
     for (std::size_t k = 0; k < zones.size(); ++k) {
       const ZoneSummary& zone = zones[k];
-      Answer::Item item;
-      item.number = zone.zone;
-      item.n_subzones = zone.n_subzones;
-      item.has_end = zone.end.has_value();
-      const Total count{static_cast<double>(zone.n_sub_impacts), {}};
-      const double end = zone.end.value_or(result_.outcome.time);
-      const ZoneTotals totals =
-          has_totals ? estimate->zones[k]
-                     : ZoneTotals{{zone.start, {}}, {end, {}}, {zone.impulse, {}}, count};
-      item.start = totals.start;
-      item.end = totals.end;
-      item.impulse = totals.impulse;
-      item.sub_impacts = totals.sub_impacts;
-      answer.items.push_back(item);
+      const ZoneTotals plain = {{zone.start, {}},
+                                {zone.end.value_or(result_.outcome.time), {}},
+                                {zone.impulse, {}},
+                                {static_cast<double>(zone.n_sub_impacts), {}}};
+      const auto& [start, end, impulse, count] = has_totals ? estimate->zones[k] : plain;
+      answer.items.push_back({zone.zone,
+                              zone.n_subzones,
+                              zone.end.has_value(),
+                              count,
+                              start,
+                              end,
+                              impulse,
+                              {},
+                              {},
+                              {}});
     }
-  }
-
-  void add_contact() {
-    if (hits().empty()) {
-      add_unknown(AnswerKey::largest_force, "N", no_contact);
-      add_unknown(AnswerKey::impulse, "N s", no_contact);
-      add_unknown(AnswerKey::indentation, "m", no_contact);
-      add_unknown(AnswerKey::dent, "m", no_contact);
-      add_unknown(AnswerKey::contact_pressure, "Pa", no_contact);
-      return;
-    }
-    Answer& force = add(AnswerKey::largest_force, "N", result_.max_force, RunTotal::peak_force);
-    const auto hit = std::ranges::max_element(hits(), {}, &SubImpact::peak_force);
-    force.time = hit->peak_time;
-    force.certain = hit->certain;
-    add(AnswerKey::impulse, "N s", result_.impulse(), RunTotal::impulse);
-    add(AnswerKey::indentation, "m", result_.max_indentation, RunTotal::max_indentation);
-    const double residual = hits().back().residual_indentation;
-    if (residual > 0.0) {
-      add(AnswerKey::dent, "m", residual, RunTotal::residual_indentation);
-    } else {
-      add_unknown(AnswerKey::dent, "m", stays_elastic);
-    }
-    add_pressure();
   }
 
   void add_pressure() {
-    const double force = result_.max_force;
-    const auto at = [&](double f) { return contact_pressure(input_.scene, f); };
-    if (input_.parts.contact_law || !at(force)) {
-      return add_unknown(AnswerKey::contact_pressure, "Pa", no_moduli);
-    }
-    Answer& answer = add(AnswerKey::contact_pressure, "Pa", at(force)->at_force, std::nullopt);
+    const auto at = [&](double force) {
+      const auto found = contact_pressure(input_.scene, force);
+      return found ? std::optional(found->at_force) : std::nullopt;
+    };
+    const bool is_there = is_touched_ && !input_.parts.contact_law;
+    Answer& answer =
+        add(AnswerKey::contact_pressure, "Pa", is_there ? at(result_.max_force) : std::nullopt,
+            is_touched_ ? no_moduli : no_contact);
     const std::optional<double> error = error_of_total(result_, RunTotal::peak_force);
-    if (const auto more = at(force + error.value_or(0.0)); error && more) {
-      answer.error = std::abs(more->at_force - *answer.value);
+    if (answer.value && error) {
+      answer.error = std::abs(at(result_.max_force + *error).value_or(0.0) - *answer.value);
     }
   }
 
-  // Of an end or a start of one of the last contacts; where it is not certain, the time lies
-  // between the end of the last one that is and this one.
-  void add_time_of_last(AnswerKey key, double time, const std::optional<double>& error) {
-    Answer& answer = add(key, "s", time, std::nullopt);
-    if (!result_.error_estimate) return;
-    answer.certain = hits().back().certain.value_or(false) && !doubt_after_last(result_);
-    if (*answer.certain) {
-      answer.error = error;
-      return;
-    }
+  // An end or a start of one of the last contacts; where it is not certain, it lies between the end
+  // of the last one that is and this one.
+  void add_last(AnswerKey key, const std::optional<double>& time,
+                const std::optional<double>& error, WhyNot otherwise) {
+    Answer& answer = add(key, "s", time, otherwise);
+    if (!result_.error_estimate || !time) return;
+    answer.certain = hits_.back().certain.value_or(false) && !doubt_after_last(result_);
+    if (*answer.certain) return void(answer.error = error);
     answer.from = 0.0;
-    for (const SubImpact& s : hits()) {
+    for (const SubImpact& s : hits_) {
       if (!s.certain.value_or(false)) break;
-      if (s.end && *s.end < time) answer.from = *s.end - s.end_error.value_or(0.0);
+      if (s.end && *s.end < *time) answer.from = *s.end - s.end_error.value_or(0.0);
     }
     if (doubt_after_last(result_)) answer.value = result_.outcome.time;
   }
 
   void add_times() {
-    const StrikeFigures figures = figures_of(result_);
-    if (figures.parting) {
-      Answer& parting = add(AnswerKey::first_parting, "s", *figures.parting, std::nullopt);
-      const auto hit = std::ranges::find(hits(), figures.parting, &SubImpact::end);
-      parting.certain = hit->certain;
-      if (hit->certain.value_or(false)) parting.error = hit->end_error;
-    } else {
-      add_unknown(AnswerKey::first_parting, "s", hits().empty() ? no_contact : in_contact);
+    const std::optional<double> time = figures_of(result_).parting;
+    Answer& parting =
+        add(AnswerKey::first_parting, "s", time, is_touched_ ? in_contact : no_contact);
+    if (time) {
+      const SubImpact& hit = *std::ranges::find(hits_, time, &SubImpact::end);
+      parting.certain = hit.certain;
+      if (hit.certain.value_or(false)) parting.error = hit.end_error;
     }
-    if (!hits().empty() && hits().back().end) {
-      add_time_of_last(AnswerKey::contact_end, *hits().back().end, hits().back().end_error);
-    } else {
-      add_unknown(AnswerKey::contact_end, "s", hits().empty() ? no_contact : in_contact);
-    }
-    if (result_.rests_since) {
-      add_time_of_last(AnswerKey::rests_since, *result_.rests_since, hits().back().start_error);
-    } else {
-      add_unknown(AnswerKey::rests_since, "s", does_not_rest);
-    }
+    const SubImpact last = is_touched_ ? hits_.back() : SubImpact{};
+    add_last(AnswerKey::contact_end, last.end, last.end_error,
+             is_touched_ ? in_contact : no_contact);
+    add_last(AnswerKey::rests_since, result_.rests_since, last.start_error, does_not_rest);
   }
 
   void add_velocities() {
-    if (input_.scene.striker.fixed) {
-      add_unknown(AnswerKey::striker_velocity, "m/s", fixed);
-    } else {
-      add(AnswerKey::striker_velocity, "m/s", result_.striker_velocity, RunTotal::striker_velocity)
-          .time = result_.outcome.time;
-    }
-    const bool met_at_rest_only = result_.first_touch.striker <= result_.first_touch.beam;
-    if (result_.restitution) {
-      add(AnswerKey::restitution, "", *result_.restitution, RunTotal::restitution).time =
-          result_.parting.time;
-    } else {
-      add_unknown(AnswerKey::restitution, "",
-                  hits().empty()      ? no_contact
-                  : met_at_rest_only  ? met_at_rest
-                  : hits().back().end ? approaching
-                                      : in_contact);
-    }
+    const bool is_fixed = input_.scene.striker.fixed;
+    add(AnswerKey::striker_velocity, "m/s",
+        is_fixed ? std::nullopt : std::optional(result_.striker_velocity), fixed,
+        RunTotal::striker_velocity)
+        .time = result_.outcome.time;
+    const bool at_rest = result_.first_touch.striker <= result_.first_touch.beam;
+    const WhyNot why = !is_touched_       ? no_contact
+                       : at_rest          ? met_at_rest
+                       : hits_.back().end ? approaching
+                                          : in_contact;
+    add(AnswerKey::restitution, "", result_.restitution, why, RunTotal::restitution).time =
+        result_.parting.time;
   }
 
   void add_bending() {
-    const auto add_both = [&](WhyNot of_set, WhyNot of_share) {
-      add_unknown(AnswerKey::permanent_set, "m", of_set);
-      add_unknown(AnswerKey::yield_share, "", of_share);
+    const auto largest = [&](auto size) {
+      return std::ranges::max_element(result_.envelope, {}, size);
     };
     const bool has_yielded = result_.n_yielded_sections > 0;
-    if (!result_.used.bends()) return add_both(fixed, fixed);
-    if (has_yielded && result_.plastic_zones.empty()) return add_both(not_computed, yields);
-    if (has_yielded) {
-      const EnvelopeRow& most = *std::ranges::max_element(
-          result_.envelope, {},
-          [](const EnvelopeRow& row) { return std::abs(row.set_from_supports); });
-      add(AnswerKey::permanent_set, "m", std::abs(most.set_from_supports), RunTotal::permanent_set)
-          .position = most.position;
-      return add_unknown(AnswerKey::yield_share, "", yields);
-    }
     const double first_yield = first_yield_strain(input_, result_);
-    if (!(first_yield < HUGE_VAL)) return add_both(no_yield_stress, no_yield_stress);
-    if (result_.envelope.empty()) return add_both(stays_elastic, not_computed);
-    add_unknown(AnswerKey::permanent_set, "m", stays_elastic);
-    const EnvelopeRow& most = *std::ranges::max_element(
-        result_.envelope, {}, [](const EnvelopeRow& row) { return magnitude(row.strain); });
+    const WhyNot why = !result_.used.bends()       ? fixed
+                       : has_yielded               ? not_computed
+                       : !(first_yield < HUGE_VAL) ? no_yield_stress
+                                                   : stays_elastic;
+    const bool has_fields = result_.used.bends() && !result_.envelope.empty();
+    const auto most_set =
+        largest([](const EnvelopeRow& row) { return std::abs(row.set_from_supports); });
+    const bool has_set = has_fields && has_yielded && !result_.plastic_zones.empty();
+    Answer& set = add(AnswerKey::permanent_set, "m",
+                      has_set ? std::optional(std::abs(most_set->set_from_supports)) : std::nullopt,
+                      why, RunTotal::permanent_set);
+    if (has_set) set.position = most_set->position;
+    const auto most = largest([](const EnvelopeRow& row) { return magnitude(row.strain); });
+    const bool has_share = has_fields && why == stays_elastic;
     Answer& share =
-        add(AnswerKey::yield_share, "", magnitude(most.strain) / first_yield, RunTotal::max_strain);
+        add(AnswerKey::yield_share, "",
+            has_share ? std::optional(magnitude(most->strain) / first_yield) : std::nullopt,
+            has_yielded            ? yields
+            : why == stays_elastic ? not_computed
+                                   : why,
+            RunTotal::max_strain);
     if (share.error) *share.error /= first_yield;
-    share.position = most.position;
+    if (has_share) share.position = most->position;
   }
 
   void add_supports() {
-    const EnvelopeRow::Extreme* largest = nullptr;
+    EnvelopeRow::Extreme largest;
+    double position = 0.0;
     for (const std::size_t end : {0, 1}) {
       if (!result_.reactions[end]) continue;
-      for (const auto* extreme :
-           {&result_.reactions[end]->largest, &result_.reactions[end]->smallest}) {
-        if (largest != nullptr && std::abs(extreme->value) <= std::abs(largest->value)) continue;
+      for (const auto& extreme :
+           {result_.reactions[end]->largest, result_.reactions[end]->smallest}) {
+        if (std::abs(extreme.value) <= std::abs(largest.value)) continue;
         largest = extreme;
-        position_of_reaction_ = end == 0 ? 0.0 : input_.scene.beam.length;
+        position = end == 0 ? 0.0 : input_.scene.beam.length;
       }
     }
-    if (largest == nullptr) {
-      return add_unknown(AnswerKey::supports, "N",
-                         input_.scene.beam.is_free() ? no_supports : not_computed);
-    }
+    const bool is_there = largest.value != 0.0;
     Answer& answer =
-        add(AnswerKey::supports, "N", largest->value,
-            largest->value > 0.0 ? RunTotal::reaction_along : RunTotal::reaction_against);
-    answer.time = largest->time;
-    answer.position = position_of_reaction_;
-  }
-
-  void add_energy() {
-    const Energies& end = result_.final_energies;
-    add(AnswerKey::energy, "J", end.bending_plastic + end.contact_plastic + end.beam_damping,
-        RunTotal::dissipated);
+        add(AnswerKey::supports, "N", is_there ? std::optional(largest.value) : std::nullopt,
+            input_.scene.beam.is_free() ? no_supports : not_computed,
+            largest.value > 0.0 ? RunTotal::reaction_along : RunTotal::reaction_against);
+    if (!is_there) return;
+    answer.time = largest.time;
+    answer.position = position;
   }
 
   const Case& input_;
   const Result& result_;
+  const std::vector<SubImpact>& hits_ = result_.sub_impacts;
+  const bool is_touched_ = !hits_.empty();
   std::vector<Answer> all_;
-  double position_of_reaction_ = 0.0;
 };
 
 }  // namespace

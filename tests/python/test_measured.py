@@ -3,6 +3,7 @@
 import json
 import re
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -300,6 +301,18 @@ def test_what_cannot_be_laid_beside_each_other_is_refused_or_doubted(strike):
             wrong()
     hum = measured.Signal(1e-6 * np.arange(2000), 100 * np.sin(0.02 * np.arange(2000)))
     assert "correlation" in measured.align(strike, hum).doubt
+
+
+def test_a_difference_lies_within_the_total_error_of_the_computed_force_or_not(strike):
+    found = measured.align(strike, signal_of(strike, factor=1.01))
+
+    def words(total):
+        return next(answer["note"] for answer in replace(found, total_error=total).answers() if answer["name"] == "largest force")
+
+    assert words(0.1 * found.computed.peak).startswith("within") and words(1e-3 * found.computed.peak).startswith("outside")
+    assert "not known" in words(None)
+    force = next(answer for answer in strike.answers if answer["key"] == "largest_force")
+    assert (found.total_error is None) == (force["error"] is None or force["body_error"] is None)
 
 
 def test_a_fit_finds_two_keys_and_damping_from_zero(strike, elastic):

@@ -1,8 +1,8 @@
 #pragma once
 
 /// What a strike tells: answers, each with both of its errors, and a verdict. study/answers.h makes
-/// them, words_of_answers() (report/text.h) adds their words; screen, files, pages and Python show
-/// these records and nothing else.
+/// the records, make_answers() (report/text.h) adds their words; screen, files, pages and Python
+/// show these and nothing else.
 
 #include <cstddef>
 #include <optional>
@@ -14,58 +14,35 @@
 
 namespace subimpact {
 
+// clang-format off
+/// Numbers: sub_impacts, joined (if contacts parted by little count as one), zones (Answer::items
+/// has each). N: largest_force, supports (the one of largest magnitude). s: first_parting (end of
+/// the first contact parted by more than 1 um), contact_end (of the last), rests_since (start of a
+/// contact without end). m/s: striker_velocity, at the end. m: indentation (largest), dent,
+/// permanent_set (largest, against the supports). Pa: contact_pressure, at the largest force. J:
+/// energy, dissipated. Ratios: restitution, yield_share (largest strain of a beam that stays
+/// elastic, over that of first yield).
 enum class AnswerKey {
-  sub_impacts,       ///< their number
-  joined,            ///< their number if contacts parted by little are joined
-  largest_force,     ///< N
-  first_parting,     ///< s: end of the first contact parted by more than 1 um
-  contact_end,       ///< s: end of the last contact
-  rests_since,       ///< s: start of a contact without end
-  striker_velocity,  ///< m/s, at the end
-  restitution,
-  impulse,           ///< N s, of all sub-impacts
-  zones,             ///< their number; Answer::items has each
-  indentation,       ///< m, largest
-  dent,              ///< m, that stays
-  contact_pressure,  ///< Pa, at the largest force
-  permanent_set,     ///< m, largest, against the supports
-  yield_share,       ///< largest strain of a beam that stays elastic, over that of first yield
-  supports,          ///< N, the force of a support that is largest in magnitude
-  energy,            ///< J, dissipated
+  sub_impacts, joined, largest_force, first_parting, contact_end, rests_since, striker_velocity,
+  restitution, impulse, zones, indentation, dent, contact_pressure, permanent_set, yield_share,
+  supports, energy
 };
 
 /// Why an answer is not there.
 enum class WhyNot {
-  no_contact,       ///< the bodies never touched
-  in_contact,       ///< they touch each other at the end
-  approaching,      ///< they approach each other at the end
-  met_at_rest,      ///< without relative velocity
-  none_uncertain,   ///< few or no sub-impacts are uncertain
-  does_not_rest,    ///< loads do not hold the bodies together
-  fixed,            ///< the body does not move
-  stays_elastic,    ///< nothing has yielded
-  yields,           ///< sections have yielded
-  no_yield_stress,  ///< nothing can yield
-  no_moduli,        ///< the law does not have those of the surfaces
-  not_computed,     ///< the run was told not to
-  no_supports,      ///< all ends are free
+  no_contact, in_contact, approaching, met_at_rest,  // of the bodies, at the end
+  none_uncertain,                                    // there is nothing to join
+  does_not_rest, fixed, stays_elastic, yields, no_yield_stress, no_moduli, not_computed, no_supports
 };
 
-/// What a model leaves out, or a case leaves open.
+/// What a model leaves out, or a case leaves open: poisson, nose, gravity where the case has none;
+/// bending of a beam modelled as rigid; width: a hinge held sideways; stretching of a beam held at
+/// both ends.
 enum class BodyPart {
-  shear,              ///< of a beam without it
-  shear_coefficient,  ///< of a beam with it
-  poisson,            ///< of the beam, where the case has none
-  bending,            ///< of a beam modelled as rigid
-  contact_law,
-  nose,     ///< its moduli, where the case has none
-  gravity,  ///< where the case has none
-  width,    ///< a hinge held sideways
-  finite_rotations,
-  stretching,  ///< of a beam held at both ends
-  hinge_length,
-  thin_openings
+  shear, shear_coefficient, poisson, bending, contact_law, nose, gravity, width, finite_rotations,
+  stretching, hinge_length, thin_openings
 };
+// clang-format on
 
 struct Answer {
   struct Part {
@@ -74,14 +51,13 @@ struct Answer {
     /// Words: "contact law", the change in the unit of the answer's text, what to do about it.
     std::string label = {}, text = {}, remedy = {};
   };
-  /// One of a list: a zone.
+  /// One of a list: a zone, from 1. Its end is that of the run where it has none.
   struct Item {
-    int number = 0;                          ///< from 1
-    Total sub_impacts, start, end, impulse;  ///< s, N s
-    bool has_end = true;                     ///< false: still in contact at the end
-    int n_subzones = 1;
+    int number = 0, n_subzones = 1;
+    bool has_end = true;
+    Total sub_impacts, start, end, impulse;                  ///< s, N s
     std::optional<double> start_body_error, end_body_error;  ///< s; none: not known
-    std::string text;                                        ///< words
+    std::string text;
   };
   AnswerKey key;
   std::string_view unit = {};             ///< SI: "N"; empty: a number
@@ -93,9 +69,9 @@ struct Answer {
   std::optional<bool> certain = {};     ///< of an event: whether it is; none: not judged
   std::optional<double> time = {};      ///< s, when
   std::optional<double> position = {};  ///< m from the beam's first end, where
-  std::optional<double> from = {};      ///< the value lies between this one and `value`
+  std::optional<double> from = {};      ///< of an uncertain event: it lies between this and `value`
   std::vector<Item> items = {};
-  // Words; errors are in the unit of the text.
+  /// Words; errors are in the unit of the text.
   std::string label = {}, text = {}, error_text = {}, body_text = {}, total_text = {}, note = {};
 };
 

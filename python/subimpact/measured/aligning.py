@@ -172,6 +172,7 @@ class Alignment:
     difference: tuple[Numbers, Numbers]  #: times and forces, computed less measured
     at_bound: bool  #: whether the cut-off found is at an end of the searched range
     quantity: str = "force"  #: or "strain": what is named a force here is then the strain of a gauge, m/m
+    total_error: float | None = None  #: N, of the computed largest force, computation and body together; None: not known
 
     @property
     def doubt(self) -> str:
@@ -337,7 +338,10 @@ def align(result: Result, signal: Signal, shift: float | str | None = None, gain
     here = computed.at(times[inside])
     cutoff = None if low_pass is None else float(np.exp(x))
     find = low_pass == "find"
+    force = next(answer for answer in result.answers if answer["key"] == "largest_force")
+    errors = [force["error"], force["body_error"]]
     return Alignment(
+        total_error=None if None in errors else float(np.hypot(*errors)),
         shift=float(found_shift), shift_error=float(shift_error) if shift is None else None,
         low_pass=cutoff, low_pass_error=float(x_error) * cutoff if cutoff and find else None,
         gain=factor, gain_error=float(gain_error) if gain == "find" else None,

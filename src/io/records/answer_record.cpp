@@ -2,58 +2,45 @@
 
 namespace subimpact {
 
+// Enumerators in their order, and their names.
+template <class Enum>
+static std::vector<Named<Enum>> in_order(std::initializer_list<const char*> names) {
+  std::vector<Named<Enum>> all;
+  for (const char* name : names) all.push_back({static_cast<Enum>(all.size()), name, ""});
+  return all;
+}
+
 // clang-format off
 static std::span<const Named<AnswerKey>> names_of(AnswerKey) {
-  using enum AnswerKey;
-  static constexpr Named<AnswerKey> names[] = {
-      {sub_impacts, "sub_impacts", ""}, {joined, "joined", ""}, {largest_force, "largest_force", ""},
-      {first_parting, "first_parting", ""}, {contact_end, "contact_end", ""}, {rests_since, "rests_since", ""},
-      {striker_velocity, "striker_velocity", ""}, {restitution, "restitution", ""}, {impulse, "impulse", ""},
-      {zones, "zones", ""}, {indentation, "indentation", ""}, {dent, "dent", ""},
-      {contact_pressure, "contact_pressure", ""}, {permanent_set, "permanent_set", ""}, {yield_share, "yield_share", ""},
-      {supports, "supports", ""}, {energy, "energy", ""}};
+  static const auto names = in_order<AnswerKey>(
+      {"sub_impacts", "joined", "largest_force", "first_parting", "contact_end", "rests_since", "striker_velocity",
+       "restitution", "impulse", "zones", "indentation", "dent", "contact_pressure", "permanent_set", "yield_share",
+       "supports", "energy"});
   return names;
 }
-
 static std::span<const Named<WhyNot>> names_of(WhyNot) {
-  using enum WhyNot;
-  static constexpr Named<WhyNot> names[] = {
-      {no_contact, "no_contact", ""}, {in_contact, "in_contact", ""}, {approaching, "approaching", ""},
-      {met_at_rest, "met_at_rest", ""}, {none_uncertain, "none_uncertain", ""}, {does_not_rest, "does_not_rest", ""},
-      {fixed, "fixed", ""}, {stays_elastic, "stays_elastic", ""}, {yields, "yields", ""},
-      {no_yield_stress, "no_yield_stress", ""}, {no_moduli, "no_moduli", ""}, {not_computed, "not_computed", ""},
-      {no_supports, "no_supports", ""}};
+  static const auto names = in_order<WhyNot>(
+      {"no_contact", "in_contact", "approaching", "met_at_rest", "none_uncertain", "does_not_rest", "fixed",
+       "stays_elastic", "yields", "no_yield_stress", "no_moduli", "not_computed", "no_supports"});
   return names;
 }
-
 static std::span<const Named<BodyPart>> names_of(BodyPart) {
-  using enum BodyPart;
-  static constexpr Named<BodyPart> names[] = {
-      {shear, "shear", ""}, {shear_coefficient, "shear_coefficient", ""}, {poisson, "poisson", ""}, {bending, "bending", ""},
-      {contact_law, "contact_law", ""}, {nose, "nose", ""}, {gravity, "gravity", ""}, {width, "width", ""},
-      {finite_rotations, "finite_rotations", ""}, {stretching, "stretching", ""}, {hinge_length, "hinge_length", ""},
-      {thin_openings, "thin_openings", ""}};
+  static const auto names = in_order<BodyPart>(
+      {"shear", "shear_coefficient", "poisson", "bending", "contact_law", "nose", "gravity", "width", "finite_rotations",
+       "stretching", "hinge_length", "thin_openings"});
   return names;
 }
-
 static std::span<const Named<StrikeVerdict::Certainty>> names_of(StrikeVerdict::Certainty) {
-  using enum StrikeVerdict::Certainty;
-  static constexpr Named<StrikeVerdict::Certainty> names[] = {
-      {not_known, "not_known", ""}, {none, "none", ""}, {some, "some", ""}, {all, "all", ""}};
+  static const auto names = in_order<StrikeVerdict::Certainty>({"not_known", "none", "some", "all"});
   return names;
 }
-
 static std::span<const Named<StrikeVerdict::Contact>> names_of(StrikeVerdict::Contact) {
-  using enum StrikeVerdict::Contact;
-  static constexpr Named<StrikeVerdict::Contact> names[] = {
-      {none, "none", ""}, {over, "over", ""}, {may_not_be_over, "may_not_be_over", ""}, {not_over, "not_over", ""}, {rests, "rests", ""}};
+  static const auto names =
+      in_order<StrikeVerdict::Contact>({"none", "over", "may_not_be_over", "not_over", "rests"});
   return names;
 }
-
 static std::span<const Named<StrikeVerdict::Beam>> names_of(StrikeVerdict::Beam) {
-  using enum StrikeVerdict::Beam;
-  static constexpr Named<StrikeVerdict::Beam> names[] = {
-      {rigid, "rigid", ""}, {elastic, "elastic", ""}, {bent, "bent", ""}, {not_computed, "not_computed", ""}};
+  static const auto names = in_order<StrikeVerdict::Beam>({"rigid", "elastic", "bent", "not_computed"});
   return names;
 }
 
