@@ -20,6 +20,8 @@ struct SubImpactAssessment {
   std::optional<Reason> doubt;                  ///< why it is not certain
   std::optional<double> start_error;            ///< s, error estimate of start: sum of its parts
   std::optional<double> end_error;              ///< s, error estimate of end
+  /// s, errors of the body of start and end (BodyErrors): the sum of its parts; none: not known.
+  std::optional<double> start_body_error, end_body_error;
   std::optional<double> error_time;             ///< s, part due to the integration in time
   std::optional<double> error_mesh;             ///< s, part due to the mesh
   std::optional<double> error_layers;           ///< s, part due to layers in the section

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "numerics/units.h"
 
@@ -161,6 +162,22 @@ Cell cell_of(const ColumnOfTable& column, const Result& result, const SubImpact&
   return {text, is_shown ? rounding->error : std::string()};
 }
 
+// The larger of the errors of the body of start and end; none where it is not known.
+Number body_error(const SubImpact& s) {
+  const bool is_known =
+      (s.start_body_error || s.start_error == 0.0) && (s.end_body_error || !s.end);
+  return is_known ? std::max(s.start_body_error, s.end_body_error) : std::nullopt;
+}
+bool has_body_error(const SubImpact& s) { return body_error(s).has_value(); }
+std::vector<Cell> body_cells(const std::vector<SubImpact>& all, const ReadUnit& unit) {
+  std::vector<Cell> cells;
+  for (const SubImpact& s : all) {
+    const Number error = body_error(s);
+    cells.push_back({error ? with_digits(unit.per_si * *error, 2) : std::string(), {}});
+  }
+  return cells;
+}
+
 // Puts the decimal points of a column under each other, and words to the right; each text then has
 // the same width.
 void align(std::vector<std::string>& texts) {
@@ -309,6 +326,10 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
     auto [texts, width] = column_texts(cells, plus_minus);
     add_column({quantity.name, quantity.before_unit + column.unit.name, quantity.least_width},
                std::move(texts), width);
+    if (quantity.value != in<&SubImpact::end> || !std::ranges::any_of(all, has_body_error))
+      continue;
+    std::tie(texts, width) = column_texts(body_cells(all, column.unit), plus_minus);
+    add_column({"+- body", column.unit.name, least_number_width}, std::move(texts), width);
   }
   return table;
 }

@@ -1,3 +1,4 @@
+#include "report/text/uncertain.h"
 #include "sample_result.h"
 #include "subimpact/report/text.h"
 #include "testing.h"
@@ -153,6 +154,19 @@ TEST(SubImpactTable, WithErrorsLargerThanTheTimesStillHasARowPerSubImpact) {
   for (SubImpact& s : result.sub_impacts) s.start_error = s.end_error = 7.0;
   expect_in(row_of(sub_impact_table(result), "2"), " ? ");
   expect_not_in(row_of(sub_impact_table(result), "2"), "500", "600");
+}
+
+TEST(SubImpactTable, HasTheLargerErrorOfTheBodyOfStartAndEndWhereItIsKnown) {
+  Result result = sample_result_with_errors(3);
+  expect_not_in(sub_impact_table(result), "+- body");
+  result.sub_impacts[0].end_body_error = 12.4e-6;
+  result.sub_impacts[1].start_body_error = 30e-6;
+  result.sub_impacts[1].end_body_error = 20e-6;
+  const SubImpactRows rows = sub_impact_rows(result);
+  ASSERT_EQ(rows.columns.at(3).name, std::string_view("+- body"));
+  EXPECT_EQ(rows.rows[0].cells.at(3), "12");
+  EXPECT_EQ(rows.rows[1].cells.at(3), "30");
+  EXPECT_EQ(rows.rows[2].cells.at(3), "  ");
 }
 
 }  // namespace
