@@ -21,31 +21,6 @@ constexpr int least_digits_of_energies = 2;          // whatever their errors
 constexpr double doubtful_pressure = 1e9;            // Pa
 constexpr double openings_counted[] = {1e-6, 1e-5};  // m
 
-struct Words {
-  AnswerKey key;
-  const char* label;
-  Measure measure;
-};
-constexpr Words words_of_keys[] = {{AnswerKey::sub_impacts, "sub-impacts", as_ratio},
-                                   {AnswerKey::joined, "joined", as_ratio},
-                                   {AnswerKey::largest_force, "largest force", as_answered_force},
-                                   {AnswerKey::first_parting, "first parting", as_instant},
-                                   {AnswerKey::contact_end, "last contact ends", as_instant},
-                                   {AnswerKey::rests_since, "at rest since", as_instant},
-                                   {AnswerKey::striker_velocity, "striker", as_velocity},
-                                   {AnswerKey::restitution, "restitution", as_ratio},
-                                   {AnswerKey::impulse, "impulse", as_impulse},
-                                   {AnswerKey::zones, "zones", as_ratio},
-                                   {AnswerKey::indentation, "pressed in by", as_length},
-                                   {AnswerKey::dent, "dent", as_length},
-                                   {AnswerKey::contact_pressure, "contact pressure", as_stress},
-                                   {AnswerKey::permanent_set, "permanent set", as_length},
-                                   {AnswerKey::yield_share, "of first yield", {"%", -2}},
-                                   {AnswerKey::supports, "largest reaction", as_answered_force},
-                                   {AnswerKey::energy, "energy dissipated", as_energy}};
-
-const Words& words_of(AnswerKey key) { return *std::ranges::find(words_of_keys, key, &Words::key); }
-
 // "37 parted by more than 1 um, 13 by more than 10 um; "; empty for a single contact.
 std::string parted_words(const Case& input, const Result& result) {
   const double joined = input.output.opening;
@@ -66,7 +41,7 @@ std::string parted_words(const Case& input, const Result& result) {
 
 // Shares of the energy at the end, which add up as they are printed: each is the difference of two
 // rounded sums. One below its error is joined to the one before it.
-std::string energy_note(const Result& result) {
+std::string energy_note(const Case&, const Result& result) {
   const Energies& end = result.final_energies;
   const double largest =
       std::max(result.used.initial_energy, end.work == 0.0 ? 0.0 : end.taken_up());
@@ -116,7 +91,7 @@ std::string energy_note(const Result& result) {
 }
 
 // ", 9.3 m/s of the beam": the other velocities behind a restitution.
-std::string velocities_words(const Case& input, const Result& result) {
+std::string velocities_note(const Case& input, const Result& result) {
   const Scene& scene = input.scene;
   // Without loads and stops both keep their velocities after they part.
   const bool until_end = scene.gravity == 0.0 && !scene.beam.has_loads() && !scene.striker.fixed;
@@ -137,9 +112,13 @@ std::string velocities_words(const Case& input, const Result& result) {
                      time_text(time));
 }
 
+auto strongest(const Result& result) {
+  return std::ranges::max_element(result.sub_impacts, {}, &SubImpact::peak_force);
+}
+
 // When the largest force acts: " at 8.8 us".
 std::string time_of_force(const Result& result) {
-  const auto hit = std::ranges::max_element(result.sub_impacts, {}, &SubImpact::peak_force);
+  const auto hit = strongest(result);
   const double error = std::max(hit->start_error.value_or(0.0), hit->end_error.value_or(0.0));
   const ReadUnit unit = unit_for(result.outcome.time, as_instant);
   const auto rounding = rounding_of(hit->certain.value_or(true) ? unit.per_si * error : HUGE_VAL,
@@ -149,10 +128,20 @@ std::string time_of_force(const Result& result) {
          with_unit(rounding ? with_decimals(time, rounding->decimals) : with_digits(time, 3), unit);
 }
 
-std::string force_note(const Result& result) {
-  const auto hit = std::ranges::max_element(result.sub_impacts, {}, &SubImpact::peak_force);
-  return fmt::format("in sub-impact {}", hit - result.sub_impacts.begin() + 1);
+std::string force_note(const Case&, const Result& result) {
+  return fmt::format("in sub-impact {}", strongest(result) - result.sub_impacts.begin() + 1);
 }
+
+std::string counts_note(const Case& input, const Result& result) {
+  return parted_words(input, result) + error_words(result);
+}
+
+std::string joined_note(const Case&, const Result& result) {
+  return fmt::format("contacts parted by less than {0:.4g} um as one (--opening {0:.4g}um)",
+                     um * result.error_estimate->joined->opening);
+}
+
+std::string end_note(const Case&, const Result& result) { return contact_over_words(result); }
 
 // "zone 2": "7 +- 1 sub-impacts in 2 sub-zones, 5000.0 +- 0.3 us to the end of the run, 0.1 N s".
 std::string zone_words(const Result& result, const Answer::Item& zone) {
@@ -187,7 +176,7 @@ std::string set_note(const Case& input, const Result& result) {
 }
 
 // The extremes of the forces of both supports.
-std::string reactions_note(const Result& result) {
+std::string reactions_note(const Case&, const Result& result) {
   std::string words = "positive along the strike";
   for (const std::size_t end : {0, 1}) {
     if (!result.reactions[end]) continue;
@@ -217,79 +206,58 @@ std::string pressure_note(const Case& input, const Result& result) {
   return words;
 }
 
-const char* words_of(WhyNot why) {
-  switch (why) {
-    case WhyNot::no_contact:
-      return "striker and beam never touched";
-    case WhyNot::in_contact:
-      return "striker and beam are in contact at the end";
-    case WhyNot::approaching:
-      return "striker and beam approach each other at the end";
-    case WhyNot::met_at_rest:
-      return "striker and beam met at rest";
-    case WhyNot::none_uncertain:
-      return "few sub-impacts are uncertain";
-    case WhyNot::does_not_rest:
-      return "no contact without end is found";
-    case WhyNot::fixed:
-      return "it does not move or bend";
-    case WhyNot::stays_elastic:
-      return "it stays elastic";
-    case WhyNot::yields:
-      return "sections have yielded";
-    case WhyNot::no_yield_stress:
-      return "the beam has no yield stress";
-    case WhyNot::no_moduli:
-      return "the contact law does not have it";
-    case WhyNot::not_computed:
-      return "it is not computed with output.shapes = 0";
-    case WhyNot::no_supports:
-      return "the beam has no supports";
-  }
-  return "";
+std::string share_note(const Case& input, const Result&) {
+  return input.model.section == SectionKind::elastic ? "sections are kept elastic by the case" : "";
 }
+
+struct Words {
+  const char* label;
+  Measure measure;
+  std::string (*note)(const Case&, const Result&) = nullptr;
+};
+// In the order of AnswerKey.
+constexpr Words words_of_keys[] = {{"sub-impacts", as_ratio, counts_note},
+                                   {"joined", as_ratio, joined_note},
+                                   {"largest force", as_answered_force, force_note},
+                                   {"first parting", as_instant},
+                                   {"last contact ends", as_instant, end_note},
+                                   {"at rest since", as_instant},
+                                   {"striker", as_velocity},
+                                   {"restitution", as_ratio, velocities_note},
+                                   {"impulse", as_impulse},
+                                   {"zones", as_ratio},
+                                   {"pressed in by", as_length},
+                                   {"dent", as_length},
+                                   {"contact pressure", as_stress, pressure_note},
+                                   {"permanent set", as_length, set_note},
+                                   {"of first yield", {"%", -2}, share_note},
+                                   {"largest reaction", as_answered_force, reactions_note},
+                                   {"energy dissipated", as_energy, energy_note}};
+static_assert(std::size(words_of_keys) == static_cast<std::size_t>(AnswerKey::energy) + 1);
+const Words& words_of(AnswerKey key) { return words_of_keys[static_cast<std::size_t>(key)]; }
+
+// In the order of WhyNot.
+constexpr const char* words_of_reasons[] = {"striker and beam never touched",
+                                            "striker and beam are in contact at the end",
+                                            "striker and beam approach each other at the end",
+                                            "striker and beam met at rest",
+                                            "few sub-impacts are uncertain",
+                                            "no contact without end is found",
+                                            "it does not move or bend",
+                                            "it stays elastic",
+                                            "sections have yielded",
+                                            "the beam has no yield stress",
+                                            "the contact law does not have it",
+                                            "it is not computed with output.shapes = 0",
+                                            "the beam has no supports"};
 
 std::string label_of(const Result& result, const Answer& answer) {
   const std::string label = words_of(answer.key).label;
-  switch (answer.key) {
-    case AnswerKey::striker_velocity:
-      return label + " at " + duration_text(result.outcome.time);
-    case AnswerKey::joined:
-      return answer.value
-                 ? fmt::format("joined at {:.4g} um", um * result.error_estimate->joined->opening)
-                 : label;
-    default:
-      return label;
+  if (answer.key == AnswerKey::striker_velocity) {
+    return label + " at " + duration_text(result.outcome.time);
   }
-}
-
-std::string note_of(const Case& input, const Result& result, const Answer& answer) {
-  switch (answer.key) {
-    case AnswerKey::sub_impacts:
-      return parted_words(input, result) + error_words(result);
-    case AnswerKey::joined:
-      return fmt::format("contacts parted by less than {0:.4g} um as one (--opening {0:.4g}um)",
-                         um * result.error_estimate->joined->opening);
-    case AnswerKey::largest_force:
-      return force_note(result);
-    case AnswerKey::contact_end:
-      return contact_over_words(result);
-    case AnswerKey::restitution:
-      return velocities_words(input, result);
-    case AnswerKey::contact_pressure:
-      return pressure_note(input, result);
-    case AnswerKey::permanent_set:
-      return set_note(input, result);
-    case AnswerKey::yield_share:
-      return input.model.section == SectionKind::elastic ? "sections are kept elastic by the case"
-                                                         : "";
-    case AnswerKey::supports:
-      return reactions_note(result);
-    case AnswerKey::energy:
-      return energy_note(result);
-    default:
-      return {};
-  }
+  if (answer.key != AnswerKey::joined || !answer.value) return label;
+  return fmt::format("{} at {:.4g} um", label, um * result.error_estimate->joined->opening);
 }
 
 // What follows the value: " at 8.8 us".
@@ -314,8 +282,8 @@ void add_numbers(const Case& input, const Result& result, Answer& answer) {
   const auto [number, error, is_lost] = number_and_error(unit, total, measure.most_digits);
   answer.text = result.error_estimate ? with_unit(number, unit) : plain_text(total.value, measure);
   if (answer.from) {
-    answer.text =
-        fmt::format("between {} and {}", with_digits(unit.per_si * *answer.from, 4), answer.text);
+    answer.text = fmt::format("between {} and {}", with_digits(unit.per_si * *answer.from, 4),
+                              with_unit(with_digits(unit.per_si * *answer.value, 4), unit));
   } else {
     answer.text += place_of(input, result, answer);
     answer.error_text = answer.error ? error : "not known";
@@ -431,7 +399,7 @@ void make_answers(const Case& input, Result& result) {
   for (Answer& answer : result.answers) {
     answer.label = label_of(result, answer);
     if (!answer.value) {
-      answer.note = words_of(*answer.why);
+      answer.note = words_of_reasons[static_cast<std::size_t>(*answer.why)];
       continue;
     }
     const bool is_count = answer.key == AnswerKey::sub_impacts || answer.key == AnswerKey::joined ||
@@ -441,7 +409,7 @@ void make_answers(const Case& input, Result& result) {
     } else {
       add_numbers(input, result, answer);
     }
-    answer.note = note_of(input, result, answer);
+    if (const auto note = words_of(answer.key).note) answer.note = note(input, result);
   }
   result.verdict = verdict_of(result);
   result.verdict.text = verdict_words(result);
