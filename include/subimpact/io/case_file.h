@@ -29,6 +29,7 @@ class LoadedCase {
  public:
   Case value;
   GivenKeys given;
+  std::vector<std::string> chosen;  ///< keys that a KeyChooser has set
 
   LoadedCase(std::string path, std::map<std::string, std::string> places)
       : path_(std::move(path)), places_(std::move(places)) {}
@@ -44,8 +45,9 @@ class LoadedCase {
   std::map<std::string, std::string> places_;  // key -> "file:line:column" or an override's origin
 };
 
-/// Sets keys of a case that are not given; called before the case is checked.
-using KeyChooser = std::function<void(Case& input, const GivenKeys& given)>;
+/// Sets keys of a case that are not given, and returns their names; called before the case is
+/// checked.
+using KeyChooser = std::function<std::vector<std::string>(Case& input, const GivenKeys& given)>;
 
 /// Reads a case file, replaces its values by the overrides, and checks the whole case. Every
 /// problem found is reported at once. Throws CaseFileError.

@@ -148,7 +148,7 @@ class Reader {
     loaded.given = given_keys();
     if (problems_.empty()) {
       try {
-        if (choose) choose(loaded.value, loaded.given);
+        if (choose) loaded.chosen = choose(loaded.value, loaded.given);
         check(loaded.value);
       } catch (const InvalidCase& error) {
         problems_.push_back(loaded.message(error));
