@@ -61,7 +61,7 @@ void add_body_error(const Result& result, Answer& answer) {
     answer.parts.push_back({kind, change});
   }
   if (is_known) answer.body_error = sum;
-  const auto size = [](const Answer::Part& part) { return -part.change.value_or(0.0); };
+  const auto size = [](const Answer::Part& part) { return -part.change.value_or(HUGE_VAL); };
   std::ranges::stable_sort(answer.parts, {}, size);
 }
 
@@ -156,16 +156,8 @@ class Answers {
                                 {zone.impulse, {}},
                                 {static_cast<double>(zone.n_sub_impacts), {}}};
       const auto& [start, end, impulse, count] = has_totals ? estimate->zones[k] : plain;
-      answer.items.push_back({zone.zone,
-                              zone.n_subzones,
-                              zone.end.has_value(),
-                              count,
-                              start,
-                              end,
-                              impulse,
-                              {},
-                              {},
-                              {}});
+      answer.items.push_back(
+          {zone.zone, zone.n_subzones, zone.end.has_value(), count, start, end, impulse});
     }
   }
 

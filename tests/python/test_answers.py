@@ -46,13 +46,16 @@ def check(screen, result):
     rows = [row for row in table if row]
     assert rows
     shown = {answer["label"]: answer for answer in result.answers if answer["known"]}
+    zones = shown["zones"]["items"]
     for row in rows:
-        if re.match(" +zone [0-9]", row):
+        if zone := re.match(" +zone ([0-9]+) +(.*)", row):
+            item = zones[int(zone[1]) - 1]
+            assert " ".join(zone[2].split()) == f"{item['begin_text']} {item['error_text']} {item['body_text']}"
             continue
         label = max((label for label in shown if row.strip().startswith(label)), key=len)
         answer = shown[label]
         rest = " ".join(row.strip()[len(label):].split())
-        part = answer["parts"][0]["label"] if answer["parts"] and answer["parts"][0]["change"] else ""
+        part = answer["parts"][0]["label"] if answer["parts"] and answer["parts"][0]["change"] != 0 else ""
         assert rest == " ".join(f"{answer['text']} {answer['error_text']} {answer['body_text']} {part}".split())
     for answer in result.answers:
         assert answer["known"] == (answer["value"] is not None) == (answer["why"] is None)

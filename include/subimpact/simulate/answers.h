@@ -55,16 +55,17 @@ struct Answer {
   struct Item {
     int number = 0, n_subzones = 1;
     bool has_end = true;
-    Total sub_impacts, start, end, impulse;                  ///< s, N s
-    std::optional<double> start_body_error, end_body_error;  ///< s; none: not known
-    std::string text;
+    Total sub_impacts, start, end, impulse;                            ///< s, N s
+    std::optional<double> start_body_error = {}, end_body_error = {};  ///< s; none: not known
+    /// Words: all of it; "from 5.1 ms: 2 sub-impacts", and the errors of that time.
+    std::string text = {}, begin_text = {}, error_text = {}, body_text = {};
   };
   AnswerKey key;
   std::string_view unit = {};             ///< SI: "N"; empty: a number
   std::optional<double> value = {};       ///< none: `why` says why not
   std::optional<double> error = {};       ///< of the computation; none: not known
   std::optional<double> body_error = {};  ///< sum of the parts; none: not known
-  std::vector<Part> parts = {};           ///< of the body's error, the largest first
+  std::vector<Part> parts = {};  ///< of the body's error: those not known, then the largest
   std::optional<WhyNot> why = {};
   std::optional<bool> certain = {};     ///< of an event: whether it is; none: not judged
   std::optional<double> time = {};      ///< s, when

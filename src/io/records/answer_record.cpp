@@ -71,7 +71,10 @@ const Record<Answer>& answer_record() {
       {"impulse_Ns", "", &Item::impulse, total},
       {"start_body_error_s", "null: not known", &Item::start_body_error},
       {"end_body_error_s", "null: not known", &Item::end_body_error},
-      {"text", "in words", &Item::text}};
+      {"text", "in words", &Item::text},
+      {"begin_text", "when it begins, and how many sub-impacts it has", &Item::begin_text},
+      {"error_text", "error of that time", &Item::error_text},
+      {"body_text", "error of the body of that time", &Item::body_text}};
   static const Record<Answer> record = {
       {"key", "largest_force, ...", &Answer::key},
       {"label", "the same in words", &Answer::label},
@@ -79,7 +82,7 @@ const Record<Answer>& answer_record() {
       {"unit", "of value and errors", [](const Answer& answer) { return std::string(answer.unit); }},
       {"error", "of the computation; null: not known", &Answer::error},
       {"body_error", "how far the body may be from the model's exact solution, the sum of the parts; null: not known", &Answer::body_error},
-      {"parts", "of body_error, the largest first", &Answer::parts, part},
+      {"parts", "of body_error: those that are not known, then the largest", &Answer::parts, part},
       {"known", "whether it is there", [](const Answer& answer) { return answer.value.has_value(); }},
       {"why", "why it is not", &Answer::why},
       {"certain", "whether that event is certain; null: no event, or not judged", &Answer::certain},

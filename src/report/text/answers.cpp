@@ -16,9 +16,10 @@
 namespace subimpact {
 namespace {
 
-constexpr int digits_of_energies = 4;                // at most
-constexpr int least_digits_of_energies = 2;          // whatever their errors
-constexpr double doubtful_pressure = 1e9;            // Pa
+constexpr int digits_of_energies = 4;        // at most
+constexpr int least_digits_of_energies = 2;  // whatever their errors
+constexpr double worth_saying = 0.005;       // of a value: a known share of an error that is not
+constexpr double doubtful_pressure = 1e9;    // Pa
 constexpr double openings_counted[] = {1e-6, 1e-5};  // m
 
 // "37 parted by more than 1 um, 13 by more than 10 um; "; empty for a single contact.
@@ -144,20 +145,31 @@ std::string joined_note(const Case&, const Result& result) {
 std::string end_note(const Case&, const Result& result) { return contact_over_words(result); }
 
 // "zone 2": "7 +- 1 sub-impacts in 2 sub-zones, 5000.0 +- 0.3 us to the end of the run, 0.1 N s".
-std::string zone_words(const Result& result, const Answer::Item& zone) {
+void add_zone(const Result& result, Answer::Item& zone) {
   const ReadUnit unit = unit_for(result.outcome.time, as_instant);
   const auto time = [&](const Total& total) {
     if (total.error && total.value == 0.0) return std::string("0");
     return total.error ? number_in(unit, total, as_time.most_digits)
                        : with_decimals(unit.per_si * total.value, decimals_of_times(result, unit));
   };
-  return fmt::format("{} {}{}, {} to {}, {}", count_text(zone.sub_impacts),
-                     noun_after(zone.sub_impacts.value, "sub-impact"),
-                     zone.n_subzones > 1 ? fmt::format(" in {} sub-zones", zone.n_subzones) : "",
-                     zone.has_end ? time(zone.start) : with_unit(time(zone.start), unit),
-                     zone.has_end ? with_unit(time(zone.end), unit) : "the end of the run",
-                     result.error_estimate ? text_of(zone.impulse, as_impulse)
-                                           : plain_text(zone.impulse.value, as_impulse));
+  const auto [begin, error, is_lost] = number_and_error(unit, zone.start, as_time.most_digits);
+  const bool is_first = zone.number == 1;  // which begins with the first touch
+  const std::string count = fmt::format("{} {}", count_text(zone.sub_impacts),
+                                        noun_after(zone.sub_impacts.value, "sub-impact"));
+  zone.begin_text =
+      fmt::format("from {}: {}",
+                  with_unit(is_lost || !zone.start.error ? time(zone.start) : begin, unit), count);
+  zone.error_text = zone.start.error ? error : "not known";
+  zone.body_text = zone.start_body_error ? with_digits(unit.per_si * *zone.start_body_error, 2)
+                   : is_first            ? "0"
+                                         : "not known";
+  zone.text =
+      fmt::format("{}{}, {} to {}, {}", count,
+                  zone.n_subzones > 1 ? fmt::format(" in {} sub-zones", zone.n_subzones) : "",
+                  zone.has_end ? time(zone.start) : with_unit(time(zone.start), unit),
+                  zone.has_end ? with_unit(time(zone.end), unit) : "the end of the run",
+                  result.error_estimate ? text_of(zone.impulse, as_impulse)
+                                        : plain_text(zone.impulse.value, as_impulse));
 }
 
 std::string set_note(const Case& input, const Result& result) {
@@ -230,7 +242,7 @@ constexpr Words words_of_keys[] = {{"sub-impacts", as_ratio, counts_note},
                                    {"dent", as_length},
                                    {"contact pressure", as_stress, pressure_note},
                                    {"permanent set", as_length, set_note},
-                                   {"of first yield", {"%", -2}, share_note},
+                                   {"share of first yield", as_ratio, share_note},
                                    {"largest reaction", as_answered_force, reactions_note},
                                    {"energy dissipated", as_energy, energy_note}};
 static_assert(std::size(words_of_keys) == static_cast<std::size_t>(AnswerKey::energy) + 1);
@@ -286,6 +298,7 @@ void add_numbers(const Case& input, const Result& result, Answer& answer) {
                               with_unit(with_digits(unit.per_si * *answer.value, 4), unit));
   } else {
     answer.text += place_of(input, result, answer);
+    if (answer.key == AnswerKey::contact_end && !result.contact_over) answer.text += ", so far";
     answer.error_text = answer.error ? error : "not known";
   }
   const auto rough = [&](double x) { return with_digits(unit.per_si * x, 2); };
@@ -299,9 +312,11 @@ void add_numbers(const Case& input, const Result& result, Answer& answer) {
   if (answer.error && answer.body_error) {
     answer.total_text = rough(std::hypot(*answer.error, *answer.body_error));
   }
-  answer.body_text = answer.body_error ? rough(*answer.body_error)
-                     : at_least > 0.0  ? "at least " + rough(at_least)
-                                       : "not known";
+  answer.body_text =
+      answer.body_error ? rough(*answer.body_error)
+      : at_least > std::max(answer.error.value_or(0.0), worth_saying * std::abs(*answer.value))
+          ? "at least " + rough(at_least)
+          : "not known";
 }
 
 // A number of sub-impacts has no decimals, and its own words.
@@ -318,7 +333,7 @@ void add_counts(const Result& result, Answer& answer) {
         fmt::format("{:.0f}, {:.0f} certain", *answer.value, *answer.value - *answer.error);
   } else {
     answer.text = fmt::format("{:.0f}", *answer.value);
-    for (Answer::Item& zone : answer.items) zone.text = zone_words(result, zone);
+    for (Answer::Item& zone : answer.items) add_zone(result, zone);
   }
 }
 
@@ -326,7 +341,10 @@ void add_counts(const Result& result, Answer& answer) {
 std::string with_total_error(const Answer& answer) {
   const Measure& measure = words_of(answer.key).measure;
   if (answer.error && answer.body_error) {
-    return text_of({*answer.value, std::hypot(*answer.error, *answer.body_error)}, measure);
+    const Total total{*answer.value, std::hypot(*answer.error, *answer.body_error)};
+    const ReadUnit unit = unit_for(total, measure);
+    const auto [number, error, is_lost] = number_and_error(unit, total, measure.most_digits);
+    return with_unit(is_lost ? number : number + " +- " + error, unit);
   }
   return rough_text({*answer.value, {}}, measure) + " (+- not known)";
 }
@@ -358,18 +376,15 @@ std::string verdict_words(const Result& result) {
   }
   static constexpr std::pair<Contact, const char*> states[] = {
       {Contact::over, "contact is over"},
-      {Contact::may_not_be_over, "contact may not be over at"},
-      {Contact::not_over, "still in contact at"},
+      {Contact::may_not_be_over, "contact may not be over"},
+      {Contact::not_over, "still in contact"},
       {Contact::rests, "in the end they rest on each other"}};
   const auto state =
       std::ranges::find(states, verdict.contact, &std::pair<Contact, const char*>::first);
-  const bool has_time =
-      verdict.contact == Contact::not_over || verdict.contact == Contact::may_not_be_over;
-  return fmt::format("{} in {}{}; up to {}; {}{}{}.",
+  return fmt::format("{} in {}{}; up to {}; {}{}.",
                      counted(result.sub_impacts.size(), "sub-impact"), end,
                      result.error_estimate ? certain_words(result) : ", certainty not known",
-                     with_total_error(find(AnswerKey::largest_force)), beam, state->second,
-                     has_time ? " " + end : "");
+                     with_total_error(find(AnswerKey::largest_force)), beam, state->second);
 }
 
 }  // namespace

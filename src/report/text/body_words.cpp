@@ -23,10 +23,11 @@ constexpr Words words_of_parts[] = {
      "no theory of beams says how far it is held sideways: compare one measured set"},
     {BodyPart::finite_rotations, "finite rotations",
      "the model is for small ones: strike more softly, or compare with a solid"},
-    {BodyPart::stretching, "stretching", "say whether the ends can approach each other: beam.axial"},
+    {BodyPart::stretching, "stretching",
+     "say whether the ends can approach each other: beam.axial"},
     {BodyPart::hinge_length, "length of the hinge", "no theory of beams knows it"},
     {BodyPart::thin_openings, "thin openings",
-     "no theory of beams knows openings so thin: count them as one contact (--opening 10um)"}};
+     "no theory of beams knows gaps so thin: count them as closed (--opening 10um)"}};
 
 const Words& words_of(BodyPart part) {
   return *std::ranges::find(words_of_parts, part, &Words::part);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "case/counted.h"
 #include "io/printable.h"
@@ -61,15 +62,18 @@ std::vector<Row> rows_of(const Result& result, bool verbose) {
   std::vector<Row> rows;
   for (const Answer& answer : result.answers) {
     if (is_shown(answer, verbose)) {
-      const bool has_part =
-          !answer.parts.empty() && answer.parts.front().change.value_or(0.0) > 0.0;
+      const bool has_part = !answer.parts.empty() && answer.parts.front().change != 0.0;
       rows.push_back({answer.label, answer.text, answer.error_text, answer.body_text,
                       has_part ? answer.parts.front().label : ""});
     }
     if (answer.items.size() < 2) continue;
     for (const Answer::Item& zone : answer.items) {
       if (zone.number > static_cast<int>(most_zones)) break;
-      rows.push_back({fmt::format("  zone {}", zone.number), zone.text, {}, {}, {}});
+      rows.push_back({fmt::format("  zone {}", zone.number),
+                      zone.begin_text,
+                      zone.error_text,
+                      zone.body_text,
+                      {}});
     }
   }
   return rows;
@@ -80,11 +84,9 @@ std::string answer_table(const Result& result, bool verbose) {
   std::vector<Row> rows = rows_of(result, verbose);
   rows.insert(rows.begin(), {"", "", "+- computed", "+- body", "mostly of"});
   const auto width_of = [&](std::string Row::*cell) {
-    std::size_t width = 0;
-    for (const Row& row : rows) {
-      if (!row.error.empty() || !row.body.empty()) width = std::max(width, (row.*cell).size());
-    }
-    return width;
+    return std::invoke(cell, *std::ranges::max_element(
+                                 rows, {}, [&](const Row& row) { return (row.*cell).size(); }))
+        .size();
   };
   const std::size_t text = width_of(&Row::text), error = width_of(&Row::error),
                     body = width_of(&Row::body);
@@ -109,7 +111,7 @@ std::string body_words(const Result& result, bool verbose) {
       if (part.change && !(*part.change > felt * sum)) continue;
       if (std::ranges::count(felt_parts, part.kind, &Answer::Part::kind) == 0) {
         felt_parts.push_back(part);
-        if (!part.change) felt_parts.back().remedy = "not known: no run on a coarse mesh shows it";
+        if (!part.change) felt_parts.back().remedy = "not known here; " + part.remedy;
       }
     }
   }
@@ -199,9 +201,9 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
   text += wrapped(strike_words(input, result));
   if (const std::string caveat = outcome_caveat(result); !caveat.empty()) line("outcome", caveat);
   if (result.tolerance) line("tolerance", tolerance_words(*result.tolerance, result));
-  text += wrapped(result.verdict.text) + '\n' + answer_table(result, verbose) + '\n' +
-          body_words(result, verbose);
+  text += wrapped(result.verdict.text) + '\n' + answer_table(result, verbose) + '\n';
   if (!result.all_certain()) line("not certain", error_words(result));
+  text += body_words(result, verbose);
   if (result.error_estimate && !error_of_total(result, RunTotal::impulse)) {
     line("errors", "a run beside did not complete, so errors of totals are not known");
   }

@@ -93,7 +93,11 @@ TEST(Answers, WithAPartThatIsNotKnownHaveNoErrorOfTheBodyButALeastOne) {
   const Answer answer = answer_to(paper_case(), result, largest_force);
   EXPECT_EQ(answer.body_text, "at least 2.0");
   EXPECT_FALSE(answer.body_error);
-  expect_in(summary_of(paper_case(), result), "(+- not known)", "no run on a coarse mesh shows it");
+  EXPECT_EQ(answer.parts.front().kind, BodyPart::width);
+  const std::string summary = summary_of(paper_case(), result);
+  expect_in(summary, "(+- not known)");
+  expect_in(line_of(summary, "largest force"), "at least 2.0", "width of the hinge");
+  expect_in(line_of(summary, "width of the hinge"), "not known here; ");
 }
 
 TEST(Answers, ThatAreNotThereSayWhyAndTakeNoRow) {
@@ -116,7 +120,7 @@ TEST(Answers, OnAnEndThatIsNotCertainAreAnInterval) {
   const Answer answer = answer_to(paper_case(), result, contact_end);
   EXPECT_EQ(answer.certain, false);
   EXPECT_NEAR(answer.from.value(), 0.6e-3, 1e-6);
-  expect_in(answer.text, "between 599.7 and 6000 us");
+  EXPECT_EQ(answer.text, "between 599.7 and 6000 us");
 }
 
 TEST(Answers, OnRestHaveTheErrorOfItsStart) {
@@ -131,6 +135,10 @@ TEST(Answers, ListZonesWithTheirErrors) {
   EXPECT_EQ(answer.items[0].text,
             "2 sub-impacts in 2 sub-zones, 0 to 600.0 +- 0.3 us, 0.2000 +- 0.0006 N s");
   expect_in(answer.items[1].text, "1 sub-impact, 5000.0 +- 0.3 us to the end of the run");
+  EXPECT_EQ(answer.items[1].begin_text, "from 5000.0 us: 1 sub-impact");
+  EXPECT_EQ(answer.items[1].error_text, "0.3");
+  EXPECT_EQ(answer.items[1].body_text, "not known");
+  EXPECT_EQ(answer.items[0].body_text, "0");
   expect_in(answer_of_sample(zones, 1).items[0].text, "2 +- 1 sub-impacts in 2 sub-zones");
   Result result = sample_result_with_errors(3);
   result.error_estimate->zones.clear();
@@ -176,7 +184,7 @@ TEST(Answers, OnABeamThatStaysElasticAreTheShareOfFirstYield) {
   Case input = paper_case();
   input.model.section = SectionKind::exact;
   EXPECT_EQ(answer_to(input, result, permanent_set).why, WhyNot::stays_elastic);
-  EXPECT_EQ(answer_to(input, result, yield_share).text, "50.0 % at 0.1 m");
+  EXPECT_EQ(answer_to(input, result, yield_share).text, "0.5 at 0.1 m");
   expect_in(answered(input, result).verdict.text, "the beam stays elastic");
 }
 
@@ -242,12 +250,11 @@ TEST(Answers, StandInTheSummaryFileAsOnTheScreen) {
 
 TEST(TheVerdict, HasTheTotalErrorAndWhatIsNotSure) {
   expect_in(answered(paper_case(), result_with_body_errors()).verdict.text,
-            "3 sub-impacts in 8 ms, all certain; up to 8.8 +- 2.5 kN; ",
-            "still in contact at 8 ms.");
+            "3 sub-impacts in 8 ms, all certain; up to 8.8 +- 2.5 kN; ", "still in contact.");
   Result result = sample_result_with_errors(2);
   result.sub_impacts.back().end = 6e-3;
   expect_in(answered(paper_case(), result).verdict.text, "2 certain", "8.80 kN (+- not known)",
-            "contact may not be over at 8 ms.");
+            "contact may not be over.");
   result.contact_over = true;
   expect_in(answered(paper_case(), result).verdict.text, "contact is over.");
   result.rests_since = 5e-3;
