@@ -17,7 +17,7 @@ struct RunOptions {
   CaseOptions input;
   std::string directory;
   bool all = false;  // rows of the table
-  std::string model_errors = "on";
+  std::string body_errors = "on";
   bool verbose = false;
   std::string error_bars;  // empty: from coarser meshes; "off", "time" or "all"
   Jobs jobs = n_processors();
@@ -49,7 +49,7 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
     return &files;
   };
   request.resolved = std::move(resolved);
-  request.model_errors = options.model_errors == "on";
+  request.body_errors = options.body_errors == "on";
   return run_as_asked(loaded.value, loaded.given, std::move(request));
 }
 
@@ -235,7 +235,7 @@ void add_run(CLI::App& program, int& status) {
                 "--error-bars=time: of the integration in time only, about twice as long")
       ->check(CLI::IsMember({"all", "time", "off"}));
   command
-      .add_option("--model-errors", options.model_errors,
+      .add_option("--body-errors", options.body_errors,
                   "off: no estimate of how far the body itself may be from the model")
       ->check(CLI::IsMember({"on", "off"}));
   add_jobs_option(command, options.jobs);

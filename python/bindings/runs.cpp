@@ -35,12 +35,12 @@ WithinRun run_and_predict(const LoadedCase& loaded, RunRequest request, Overseer
 }
 
 Finished run(const LoadedCase& loaded, const std::optional<std::string>& error_bars, Jobs jobs,
-             const py::object& progress, const std::optional<double>& timeout, bool model_errors) {
+             const py::object& progress, const std::optional<double>& timeout, bool body_errors) {
   Overseer overseer(progress, timeout);
   RunRequest request;
   request.error_bars = error_bars_named(error_bars);
   request.jobs = jobs;
-  request.model_errors = model_errors;
+  request.body_errors = body_errors;
   request.progress = [&overseer](double time) { return overseer.goes_on(time); };
   WithinRun made = [&] {
     const py::gil_scoped_release released;
@@ -56,7 +56,7 @@ Finished run(const LoadedCase& loaded, const std::optional<std::string>& error_b
 
 void bind_runs(py::module_& module) {
   module.def("run", &run, py::arg("case"), py::arg("error_bars"), py::arg("jobs"),
-             py::arg("progress"), py::arg("timeout"), py::arg("model_errors"));
+             py::arg("progress"), py::arg("timeout"), py::arg("body_errors"));
 }
 
 }  // namespace subimpact::python

@@ -24,7 +24,7 @@ def run(
     jobs: int,
     progress: Callable[[float], object] | None,
     timeout: float | None,
-    model_errors: bool,
+    body_errors: bool,
 ) -> Finished: ...
 def sensitivity(
     case: LoadedCase,

@@ -24,7 +24,7 @@ def run(
     jobs: int = 1,
     progress: Callable[[float], object] | None = None,
     timeout: float | str | None = None,
-    model_errors: bool = True,
+    body_errors: bool = True,
     out: str | os.PathLike[str] | None = None,
 ) -> Result:
     """Simulates a case, as `subimpact run` does.
@@ -37,7 +37,7 @@ def run(
     jobs        threads for the runs of error estimates; results do not depend on it
     progress    called up to twenty times per second with the simulated time, s; False ends the run
     timeout     ends the run after some seconds, or "90 s"
-    model_errors  whether errors of the model itself are estimated too: `Result.summary["model_errors"]`
+    body_errors  whether errors of the body are estimated too: `Result.summary["body_errors"]`
     out         directory for the files of the run: `Result.write`
 
     Other Python threads go on meanwhile. A run that is ended by `progress`, `timeout` or Ctrl-C
@@ -59,7 +59,7 @@ def run(
     check_progress(progress)
     limit = seconds(timeout)
     directory = None if out is None else path_text(out, OutputError)
-    result = Result(_core.run(case._load(), error_bars, jobs, progress, limit, model_errors))
+    result = Result(_core.run(case._load(), error_bars, jobs, progress, limit, body_errors))
     if directory is not None:
         result.write(directory)
     return result

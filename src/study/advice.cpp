@@ -57,10 +57,10 @@ Advice chosen_mesh(const Case& input, const GivenKeys& given, const Result& resu
 
 // Whether shear, which the run leaves out, moves the end of its first contact notably.
 static bool lacks_shear(const Result& result) {
-  if (!result.model_errors || !result.model_errors->value.parting) return false;
-  const double least = least_change_by_shear * *result.model_errors->value.parting;
-  return std::ranges::any_of(result.model_errors->parts, [&](const ModelErrors::Part& part) {
-    return part.name == "shear" && part.change.parting.value_or(least) >= least;
+  if (!result.body_errors || !result.body_errors->value.parting) return false;
+  const double least = least_change_by_shear * *result.body_errors->value.parting;
+  return std::ranges::any_of(result.body_errors->parts, [&](const BodyErrors::Part& part) {
+    return part.kind == BodyPart::shear && part.change.parting.value_or(least) >= least;
   });
 }
 

@@ -14,53 +14,33 @@ namespace {
 
 using enum WhyNot;
 
-// Where the error of the body comes from.
-std::optional<double> StrikeFigures::*figure_of(AnswerKey key) {
-  switch (key) {
-    case AnswerKey::largest_force:
-      return &StrikeFigures::peak_force;
-    case AnswerKey::first_parting:
-      return &StrikeFigures::parting;
-    case AnswerKey::striker_velocity:
-      return &StrikeFigures::striker_velocity;
-    case AnswerKey::permanent_set:
-      return &StrikeFigures::permanent_set;
-    default:
-      return nullptr;
-  }
-}
+// Where errors of the body come from.
+constexpr std::pair<AnswerKey, std::optional<double> StrikeFigures::*> figures[] = {
+    {AnswerKey::largest_force, &StrikeFigures::peak_force},
+    {AnswerKey::first_parting, &StrikeFigures::parting},
+    {AnswerKey::contact_end, &StrikeFigures::contact_end},
+    {AnswerKey::rests_since, &StrikeFigures::rests_since},
+    {AnswerKey::striker_velocity, &StrikeFigures::striker_velocity},
+    {AnswerKey::restitution, &StrikeFigures::restitution},
+    {AnswerKey::impulse, &StrikeFigures::impulse},
+    {AnswerKey::indentation, &StrikeFigures::max_indentation},
+    {AnswerKey::dent, &StrikeFigures::dent},
+    {AnswerKey::permanent_set, &StrikeFigures::permanent_set}};
 
-// The kinds of parts that ModelErrors names.
-BodyPart kind_of(const ModelErrors::Part& part) {
-  static const std::pair<std::string_view, BodyPart> kinds[] = {
-      {"shear", BodyPart::shear},
-      {"shear coefficient", BodyPart::shear_coefficient},
-      {"width", BodyPart::width},
-      {"finite rotations", BodyPart::finite_rotations},
-      {"stretching", BodyPart::stretching},
-      {"hinge length", BodyPart::hinge_length},
-      {"thin openings", BodyPart::thin_openings}};
-  for (const auto& [name, kind] : kinds) {
-    if (part.name == name) return kind;
+// The error of the body of an answer, and its parts, from Result::body_errors.
+void add_body_error(const BodyErrors& errors, Answer& answer) {
+  for (std::size_t z = 0; z < answer.items.size() && z < errors.error.zones.size(); ++z) {
+    answer.items[z].start_body_error = errors.error.zones[z].start;
+    answer.items[z].end_body_error = errors.error.zones[z].end;
   }
-  return BodyPart::contact_law;
-}
-
-// The error of the body of an answer, and its parts, from Result::model_errors.
-void add_body_error(const Result& result, Answer& answer) {
-  const auto figure = figure_of(answer.key);
-  if (!result.model_errors || figure == nullptr || !(result.model_errors->value.*figure)) return;
-  bool is_known = true;
-  double sum = 0.0;
-  for (const ModelErrors::Part& part : result.model_errors->parts) {
-    const std::optional<double>& change = part.change.*figure;
-    const BodyPart kind = kind_of(part);
-    if (!change && kind == BodyPart::hinge_length) continue;  // is in no sum but that of the set
-    is_known = is_known && change;
-    sum += change.value_or(0.0);
-    answer.parts.push_back({kind, change});
+  const auto found =
+      std::ranges::find(figures, answer.key, [](const auto& row) { return row.first; });
+  if (found == std::end(figures) || !(errors.value.*found->second)) return;
+  const auto figure = found->second;
+  answer.body_error = errors.error.*figure;
+  for (const auto& [kind, change] : errors.parts) {
+    if (change.*figure != 0.0) answer.parts.push_back({kind, change.*figure});
   }
-  if (is_known) answer.body_error = sum;
   const auto size = [](const Answer::Part& part) { return -part.change.value_or(HUGE_VAL); };
   std::ranges::stable_sort(answer.parts, {}, size);
 }
@@ -109,7 +89,7 @@ class Answers {
     add(AnswerKey::energy, "J", end.bending_plastic + end.contact_plastic + end.beam_damping, fixed,
         RunTotal::dissipated);
     for (Answer& answer : all_) {
-      if (answer.value) add_body_error(result_, answer);
+      if (answer.value && result_.body_errors) add_body_error(*result_.body_errors, answer);
     }
     return std::move(all_);
   }

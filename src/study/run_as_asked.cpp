@@ -11,7 +11,7 @@
 #include "study/judgement/mesh_resolution.h"
 #include "study/judgement/totals.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/model/model_errors.h"
+#include "subimpact/study/model/body_errors.h"
 
 namespace subimpact {
 namespace {
@@ -45,10 +45,9 @@ WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& reques
   WithinRun run =
       open ? simulate_within(input, *open, request) : run_as_given(input, request, beside);
   const bool is_interrupted = run.result.outcome.kind == OutcomeKind::stopped;
-  const bool is_first = !input.parts.start;
-  const bool has_errors = request.error_bars != ErrorBars::off && !is_interrupted && is_first;
-  if (has_errors && request.model_errors) {
-    run.result.model_errors = model_errors(run.input, run.result, request.progress);
+  const bool has_errors = request.error_bars != ErrorBars::off && !is_interrupted;
+  if (has_errors && request.body_errors) {
+    add_body_errors(run.input, run.result, given, request.progress);
   }
   run.result.work.all_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -94,6 +93,8 @@ StrikeRow row_of(int strike, const WithinRun& run) {
 
 WithinRun strike_repeatedly(Case next, const GivenKeys& given, RunRequest& request) {
   const int n = std::exchange(next.strikes, 1);
+  const bool has_body_errors =
+      std::exchange(request.body_errors, false) && request.error_bars != ErrorBars::off;
   NoRows none;
   const auto rows = std::exchange(request.rows, [&none] { return &none; });
   request.resolved.reset();
@@ -116,6 +117,11 @@ WithinRun strike_repeatedly(Case next, const GivenKeys& given, RunRequest& reque
     next = run->input;
     next.parts.start = run->result.end_state;
     beside = cases_of_next_strike(std::move(run->beside));
+  }
+  if (has_body_errors && std::ssize(strikes) == n) {
+    next.parts.start.reset();
+    next.strikes = n;
+    add_body_errors(next, run->result, given, request.progress);
   }
   run->result.strikes = std::move(strikes);
   run->input.strikes = n;

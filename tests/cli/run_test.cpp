@@ -320,12 +320,12 @@ TEST_F(ARun, OfACaseThatLeavesItsModelOpenChoosesItAndTheCaseItWritesIsThatModel
   EXPECT_EQ(run.at("case").at("contact").at("law"), "line");
   expect_in(run.at("model_choice").get<std::string>(), "beam.theory = \"timoshenko\"",
             "contact.law = \"line\"");
-  EXPECT_GT(run.at("model_errors").at("error").at("peak_force_N"), 0.0);
+  EXPECT_GT(run.at("body_errors").at("error").at("peak_force_N"), 0.0);
   directory.write("written.toml", directory.read("here/case.toml"));
   run_in(directory,
-         {"run", "written.toml", "--out", "again", "--error-bars=time", "--model-errors=off"});
+         {"run", "written.toml", "--out", "again", "--error-bars=time", "--body-errors=off"});
   const auto again = summary_in(directory.path / "again");
-  EXPECT_TRUE(again.at("model_errors").is_null());
+  EXPECT_TRUE(again.at("body_errors").is_null());
   EXPECT_EQ(again.at("model_choice"), "");
   EXPECT_EQ(table_in(directory.path / "again/events.csv").at(0).at("end_s"),
             table_in(directory.path / "here/events.csv").at(0).at("end_s"));

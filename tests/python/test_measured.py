@@ -23,7 +23,7 @@ def strike():
 
     case = si.Case.from_text(ELASTIC).changed({"output.sections": [], "output.points": [], "output.shapes": 0.0,
                                                "output.interval": 5e-7, "time.end": 1.8e-3})
-    return si.run(case, error_bars="off", model_errors=False)
+    return si.run(case, error_bars="off", body_errors=False)
 
 
 def curve(strike):
@@ -182,7 +182,7 @@ def test_forces_that_are_alike_differ_by_their_gain_alone(strike):
 def test_a_strain_is_laid_beside_its_gauge_and_fitted(elastic, tmp_path):
     case = elastic.changed({"time.end": 3e-4, "output.sections": [], "output.points": [], "output.shapes": 0.0, "output.interval": 5e-7,
                             "output.gauges": [{"position": 0.5}, {"position": "0.3 m", "face": "front"}]})
-    history = si.run(case, error_bars="off", model_errors=False).history
+    history = si.run(case, error_bars="off", body_errors=False).history
     times, strains = np.array(history["time_s"]), np.array(history["gauge_2_strain"])
     t = np.arange(0, 3e-4, 1e-6)
     sampled = np.interp(t, times, strains)
@@ -271,7 +271,7 @@ def test_a_fit_tells_what_the_force_does_not_determine(strike, elastic):
 def test_a_coarse_record_of_the_model_itself_gives_its_keys(strike, elastic):
     quick = elastic.changed({"time.end": 3e-4, "output.sections": [], "output.points": [], "output.shapes": 0.0,
                              "output.interval": 5e-8})
-    run = si.run(quick, error_bars="off", model_errors=False)
+    run = si.run(quick, error_bars="off", body_errors=False)
     times = 1e-6 * np.arange(-50, 290)
     exact = measured.Signal(times, np.interp(times, run.history["time_s"], run.history["force_N"], left=0.0))
     found = measured.fit(quick.changed({"striker.velocity": 15.0}), exact, "striker.velocity")
@@ -325,7 +325,7 @@ def test_a_fit_finds_two_keys_and_damping_from_zero(strike, elastic):
     assert found.correlation[0, 0] == pytest.approx(1) and abs(found.correlation[0, 1]) < 1
     assert found.case["contact.stiffness"] == found.values[1] and "standard error" in repr(found)
     damped = quick.changed({"contact.damping": 0.05, "solver.method": "erk", "output.interval": 1e-6})
-    signal = signal_of(si.run(damped, error_bars="off", model_errors=False), noise=0.01, end=3e-4)
+    signal = signal_of(si.run(damped, error_bars="off", body_errors=False), noise=0.01, end=3e-4)
     found = measured.fit(damped.changed({"contact.damping": 0.0}), signal, "contact.damping")
     assert abs(found.values[0] - 0.05) < 4 * found.errors[0] < 0.01
 

@@ -35,13 +35,6 @@ enum class WhyNot {
   does_not_rest, fixed, stays_elastic, yields, no_yield_stress, no_moduli, not_computed, no_supports
 };
 
-/// What a model leaves out, or a case leaves open: poisson, nose, gravity where the case has none;
-/// bending of a beam modelled as rigid; width: a hinge held sideways; stretching of a beam held at
-/// both ends.
-enum class BodyPart {
-  shear, shear_coefficient, poisson, bending, contact_law, nose, gravity, width, finite_rotations,
-  stretching, hinge_length, thin_openings
-};
 // clang-format on
 
 struct Answer {

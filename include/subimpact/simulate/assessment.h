@@ -124,24 +124,65 @@ struct ErrorEstimate : ErrorOfTimes {
   std::vector<ZoneTotals> zones;
 };
 
-/// Four numbers of a strike that an engineer asks for; none: not there, or not known.
-struct StrikeFigures {
-  std::optional<double> parting;           ///< s: end of the first contact parted by more than 1 um
-  std::optional<double> peak_force;        ///< N
-  std::optional<double> striker_velocity;  ///< m/s, at the end
-  std::optional<double> permanent_set;     ///< m
+/// Numbers of a zone; none: not there, or not known.
+struct ZoneFigures {
+  std::optional<double> start, end;    ///< s
+  std::optional<double> impulse = {};  ///< N s
 };
 
-/// What the model leaves out (study/model/model_errors.h): estimates of how far the body itself
-/// lies from the exact solution of the model's equations.
-struct ModelErrors {
+/// Numbers of a strike that an engineer asks for; none: not there, or not known.
+struct StrikeFigures {
+  std::optional<double> parting = {};     ///< s: end of the first contact parted by more than 1 um
+  std::optional<double> peak_force = {};  ///< N
+  std::optional<double> striker_velocity = {};  ///< m/s, at the end
+  std::optional<double> permanent_set = {};     ///< m, largest against the supports
+  std::optional<double> impulse = {};           ///< N s, of all sub-impacts
+  std::optional<double> restitution = {};
+  std::optional<double> dent = {};             ///< m, residual indentation
+  std::optional<double> max_indentation = {};  ///< m
+  std::optional<double> contact_end = {};      ///< s, end of the last sub-impact
+  std::optional<double> rests_since = {};      ///< s, as Result::rests_since
+  std::vector<ZoneFigures> zones = {};
+};
+inline constexpr std::optional<double> StrikeFigures::*strike_figures[] = {
+    &StrikeFigures::parting,
+    &StrikeFigures::peak_force,
+    &StrikeFigures::striker_velocity,
+    &StrikeFigures::permanent_set,
+    &StrikeFigures::impulse,
+    &StrikeFigures::restitution,
+    &StrikeFigures::dent,
+    &StrikeFigures::max_indentation,
+    &StrikeFigures::contact_end,
+    &StrikeFigures::rests_since};
+inline constexpr std::optional<double> ZoneFigures::*zone_figures[] = {
+    &ZoneFigures::start, &ZoneFigures::end, &ZoneFigures::impulse};
+
+/// What a model leaves out, or a case leaves open (study/model/body_errors.h).
+enum class BodyPart {
+  shear,              ///< of a beam without it
+  shear_coefficient,  ///< of a beam with it
+  poisson,            ///< of the beam, where the case has none
+  bending,            ///< of a beam modelled as rigid
+  contact_law,
+  nose,     ///< its moduli, where the case has none
+  gravity,  ///< where the case has none
+  width,    ///< a hinge held sideways
+  finite_rotations,
+  stretching,  ///< of a beam held at both ends
+  hinge_length,
+  thin_openings
+};
+
+/// Errors of the body: how far the real beam may be from the exact solution of the model.
+struct BodyErrors {
   struct Part {
-    std::string name;           ///< "contact law"
-    std::string compared;       ///< with what, in words
-    StrikeFigures change = {};  ///< magnitudes; none: not known
+    BodyPart kind = BodyPart::shear;
+    StrikeFigures change = {};  ///< magnitudes, 0 where it has none; none: not known
   };
   StrikeFigures value;      ///< of the run
-  StrikeFigures error;      ///< the sum of the parts that are known
+  StrikeFigures at_least;   ///< the sum of the parts that are known
+  StrikeFigures error;      ///< the sum of all parts; none where one is not known
   std::vector<Part> parts;  ///< that apply to the case
 };
 
@@ -178,6 +219,7 @@ struct Predictability {
     std::string name;  ///< of its column in strikes.csv
     double mean = 0.0, deviation = 0.0;
     double quantile_5 = 0.0, quantile_95 = 0.0;
+    std::optional<double> nominal = {};  ///< of the case itself, on the mesh of the samples
   };
   std::vector<Sampled> totals;
   std::size_t n_samples = 0;
@@ -187,7 +229,7 @@ struct Predictability {
 /// The assessment of a whole run.
 struct Assessment {
   std::optional<ErrorEstimate> error_estimate;   ///< with error bars
-  std::optional<ModelErrors> model_errors;       ///< where they were estimated
+  std::optional<BodyErrors> body_errors;         ///< where they were estimated
   std::optional<ToleranceOutcome> tolerance;     ///< of runs with a tolerance on event times
   std::optional<Predictability> predictability;  ///< of a case with scatter
   /// Why mesh and method were chosen, if the program chose them; otherwise empty.

@@ -10,7 +10,7 @@ namespace subimpact {
 
 /// The answers of a run in the order of the screen, without words: one of each AnswerKey. Those
 /// that are not there have no value and say why. Errors are those of Result::error_estimate and
-/// Result::model_errors; none where these have none.
+/// Result::body_errors; none where these have none.
 std::vector<Answer> answers_of(const Case& input, const Result& result);
 
 /// The verdict on a run, without words.

@@ -25,7 +25,7 @@ struct RunRequest : WithinOptions {
   std::optional<ErrorBars> error_bars;
   /// The case, if it is already resolved; used by a run without error bars.
   std::optional<ResolvedRun> resolved;
-  bool model_errors = true;  ///< whether those are estimated (study/model/model_errors.h)
+  bool body_errors = true;  ///< whether those are estimated (study/model/body_errors.h)
 };
 
 /// The choices that the program makes: those that the case leaves open, if the case has
@@ -34,13 +34,13 @@ struct RunRequest : WithinOptions {
 std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& given,
                                         const std::optional<ErrorBars>& error_bars);
 
-/// Runs a case as `subimpact run` does, with error estimates and errors of the model, unless
-/// error bars are off or `model_errors` is false; simulate(Case) is one run on the mesh of the
+/// Runs a case as `subimpact run` does, with error estimates and errors of the body, unless
+/// error bars are off or `body_errors` is false; simulate(Case) is one run on the mesh of the
 /// case. `given`: the keys that the caller has chosen; the program chooses mesh and method if no
 /// such key is among them. Throws InvalidCase. With repeat.strikes = N the beam is struck N times,
 /// on the mesh of the first strike, as are those of the runs that show the errors, and comes to
 /// rest before each strike unless strike.rest is false. The result is that of the last strike, with
-/// a row of each in Result::strikes.
+/// a row of each in Result::strikes, and with errors of the body.
 WithinRun run_as_asked(const Case& input, const GivenKeys& given = {}, RunRequest request = {});
 
 /// The first of the runs that run_as_asked() makes of a case, by default; without a reason where

@@ -115,7 +115,7 @@ class _Runs:
         return self._result(tuple(self.values(x).items()))
 
     def _run(self, values: tuple[tuple[str, float], ...]) -> Result:
-        result = run(self.case.changed(dict(values)), error_bars="off", model_errors=False)
+        result = run(self.case.changed(dict(values)), error_bars="off", body_errors=False)
         self.n += 1
         if result.interrupted:
             raise KeyboardInterrupt

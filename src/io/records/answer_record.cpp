@@ -24,7 +24,7 @@ static std::span<const Named<WhyNot>> names_of(WhyNot) {
        "stays_elastic", "yields", "no_yield_stress", "no_moduli", "not_computed", "no_supports"});
   return names;
 }
-static std::span<const Named<BodyPart>> names_of(BodyPart) {
+std::span<const Named<BodyPart>> names_of(BodyPart) {
   static const auto names = in_order<BodyPart>(
       {"shear", "shear_coefficient", "poisson", "bending", "contact_law", "nose", "gravity", "width", "finite_rotations",
        "stretching", "hinge_length", "thin_openings"});
@@ -95,6 +95,34 @@ const Record<Answer>& answer_record() {
       {"total_text", "both errors together, in the unit of text", &Answer::total_text, Form::empty_is_null},
       {"note", "what else is to be said", &Answer::note, Form::empty_is_null},
       {"items", "of zones: each zone", &Answer::items, item}};
+  return record;
+}
+const Record<BodyErrors>& body_record() {
+  static const Record<ZoneFigures> zones = {
+      {"start_s", "", &ZoneFigures::start},
+      {"end_s", "", &ZoneFigures::end},
+      {"impulse_Ns", "", &ZoneFigures::impulse}};
+
+  static const Record<StrikeFigures> figures = {
+      {"parting_s", "", &StrikeFigures::parting},
+      {"peak_force_N", "", &StrikeFigures::peak_force},
+      {"striker_velocity_m_per_s", "", &StrikeFigures::striker_velocity},
+      {"permanent_set_m", "", &StrikeFigures::permanent_set},
+      {"impulse_Ns", "", &StrikeFigures::impulse},
+      {"restitution", "", &StrikeFigures::restitution},
+      {"residual_indentation_m", "", &StrikeFigures::dent},
+      {"max_indentation_m", "", &StrikeFigures::max_indentation},
+      {"contact_end_s", "", &StrikeFigures::contact_end},
+      {"rests_since_s", "", &StrikeFigures::rests_since},
+      {"zones", "", &StrikeFigures::zones, zones}};
+  static const Record<BodyErrors::Part> part = {
+      {"key", "what the model leaves out, or the case leaves open", &BodyErrors::Part::kind},
+      {"change", "of these numbers, 0 where it has none; null: not known", [](auto& of) -> auto& { return of.change; }, figures}};
+  static const Record<BodyErrors> record = {
+      {"value", "of the run: parting_s, end of the first contact parted by more than 1 um; contact_end_s, of the last; others as elsewhere", [](auto& errors) -> auto& { return errors.value; }, figures},
+      {"at_least", "the sum of the parts that are known", [](auto& errors) -> auto& { return errors.at_least; }, figures},
+      {"error", "how far the real beam may be from them: the sum of the parts; null: one is not known", [](auto& errors) -> auto& { return errors.error; }, figures},
+      {"parts", "", &BodyErrors::parts, part}};
   return record;
 }
 // clang-format on

@@ -118,7 +118,8 @@ const Record<Predictability::Sampled> sampled_record = {
     {"name", "of its column in strikes.csv", &Predictability::Sampled::name},
     {"mean", "of the samples", &Predictability::Sampled::mean}, {"standard_deviation", "", &Predictability::Sampled::deviation},
     {"quantile_5", "below which a twentieth of the samples lies", &Predictability::Sampled::quantile_5},
-    {"quantile_95", "above which a twentieth lies", &Predictability::Sampled::quantile_95}};
+    {"quantile_95", "above which a twentieth lies", &Predictability::Sampled::quantile_95},
+    {"nominal", "of the case itself, on the mesh of the samples", &Predictability::Sampled::nominal}};
 
 const Record<Predictability> predictability_record = {
     {"horizon_s", "up to which the strike can be predicted", &Predictability::horizon, Form::finite},
@@ -129,22 +130,6 @@ const Record<Predictability> predictability_record = {
     {"striker_velocity_scatter_m_per_s", "standard deviation of the velocity at the end", &Predictability::striker_velocity_scatter},
     {"samples", "of the numbers that scatter; each is a run", &Predictability::n_samples}, {"samples_mesh", "of these runs", &Predictability::samples_mesh},
     {"totals", "over the samples", &Predictability::totals, sampled_record}};
-
-const Record<StrikeFigures> figures_record = {
-    {"parting_s", "", &StrikeFigures::parting},
-    {"peak_force_N", "", &StrikeFigures::peak_force},
-    {"striker_velocity_m_per_s", "", &StrikeFigures::striker_velocity},
-    {"permanent_set_m", "", &StrikeFigures::permanent_set}};
-
-const Record<ModelErrors::Part> model_part_record = {
-    {"name", "what the model leaves out", &ModelErrors::Part::name},
-    {"compared_with", "where its change comes from", &ModelErrors::Part::compared},
-    {"change", "of the four numbers; null: not known", [](auto& part) -> auto& { return part.change; }, figures_record}};
-
-const Record<ModelErrors> model_record = {
-    {"value", "of the run: parting_s, end of the first contact parted by more than 1 um; peak_force_N; striker_velocity_m_per_s at the end; permanent_set_m", [](auto& errors) -> auto& { return errors.value; }, figures_record},
-    {"error", "how far the body itself may be from them: the sum of the parts that are known", [](auto& errors) -> auto& { return errors.error; }, figures_record},
-    {"parts", "", &ModelErrors::parts, model_part_record}};
 
 const Record<ClosestApproach> approach_record = {
     {"time_s", "when", &ClosestApproach::time, Form::from_zero},
@@ -371,7 +356,7 @@ Record<DescribedRun> make_run_record() {
       {"wish", "outcome of accuracy.event_times", result(&Result::tolerance), tolerance_record},
       {"choice", "why mesh and method are what they are", result(&Result::choice)},
       {"model_choice", "why theory and contact law are what they are, if they were chosen", [](auto& run) -> auto& { return run.input->model_choice; }},
-      {"model_errors", "errors of the model itself; null: not estimated", result(&Result::model_errors), model_record},
+      {"body_errors", "errors of the body; null: not estimated", result(&Result::body_errors), body_record()},
       {"verdict", "first words on the run", [](const DescribedRun& run) { return std::optional(run.result->verdict); }, verdict_record()},
       {"answers", "main numbers of the run, each with both of its errors, in the order of the screen", [](const DescribedRun& run) { return run.result->answers; }, answer_record()},
       {"warnings", "warnings about results that passed all checks", result(&Result::warnings)},

@@ -115,6 +115,8 @@ const RunTable<SubImpact>& run_table() {
        {"probability", "of that; 1 where certain", &SubImpact::probability},
        {"start_error_s", "error of start_s, sum of its parts; this and what follows: empty without error bars", &SubImpact::start_error},
        {"end_error_s", "error of end_s, sum of its parts", &SubImpact::end_error},
+       {"start_body_error_s", "error of the body of start_s; this and the next: empty where not known", &SubImpact::start_body_error},
+       {"end_body_error_s", "error of the body of end_s", &SubImpact::end_body_error},
        {"error_time_s", "part of the integration in time", &SubImpact::error_time},
        {"error_mesh_s", "part of the mesh", &SubImpact::error_mesh},
        {"error_layers_s", "part of layers in place of the exact section", &SubImpact::error_layers},

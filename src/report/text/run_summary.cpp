@@ -126,7 +126,7 @@ std::string body_words(const Result& result, bool verbose) {
       if (!words.empty()) text += labelled("", answer.label + ": " + words);
     }
   }
-  if (result.model_errors && result.verdict.beam == StrikeVerdict::Beam::bent) {
+  if (result.body_errors && result.verdict.beam == StrikeVerdict::Beam::bent) {
     text += labelled("in no error", "rates of strain, the length of the hinge but in the set");
   }
   return text;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case/meshes.h"
+#include "case/problem.h"
 #include "study/judgement/totals.h"
 #include "study/method_choice.h"
 #include "subimpact/case/simulate.h"
@@ -36,7 +37,10 @@ Case coarse_case(const Case& input, int cells, double end) {
     coarse.model.elements = std::max(cells / 4, 4);
     if (coarse.model.mesh == MeshKind::cells) coarse.solver.method = Method::central_difference;
   }
-  coarse.solver.method = possible_method(coarse, coarse.solver.method);
+  // Damped by modes where it can be: other methods do not take every kind.
+  const bool is_damped = bends && !input.scene.beam.damping.is_none();
+  coarse.solver.method =
+      possible_method(coarse, is_damped ? Method::exponential : coarse.solver.method);
   return coarse;
 }
 
@@ -56,24 +60,38 @@ int affordable_cells(const Case& input, double end, int most, double work) {
   }
 }
 
-std::optional<Result> coarse_run(const Case& input, const Progress& progress) {
+std::optional<Result> coarse_run(Case input, const Progress& progress) {
   try {
+    if (input.solver.step) {
+      input.solver.step = std::min(*input.solver.step, largest_stable_step(input));
+    }
     return simulate(input, progress);
   } catch (const InvalidCase&) {  // of numbers that only such a mesh cannot hold
     return std::nullopt;
   }
 }
 
-StrikeFigures figures_of(const Result& result) {
+StrikeFigures figures_of(const Result& result, double until) {
   StrikeFigures figures;
   for (const SubImpact& s : result.sub_impacts) {
-    if (figures.parting || !s.end || s.opening.value_or(0.0) <= hair_opening) continue;
-    figures.parting = s.end;
+    if (s.start > until) break;
+    figures.peak_force = std::max(figures.peak_force.value_or(0.0), s.peak_force);
+    figures.max_indentation = std::max(figures.max_indentation.value_or(0.0), s.max_indentation);
+    if (figures.parting || result.end_of(s) > until || !s.end) continue;
+    if (s.opening.value_or(0.0) > hair_opening) figures.parting = s.end;
   }
-  figures.peak_force = result.max_force;
   figures.striker_velocity = result.striker_velocity;
   if (!result.envelope.empty()) {
     figures.permanent_set = largest_magnitude(result.envelope, &EnvelopeRow::set_from_supports);
+  }
+  figures.restitution = result.restitution;
+  figures.rests_since = result.rests_since;
+  if (result.sub_impacts.empty()) return figures;
+  figures.impulse = result.impulse();
+  figures.dent = result.sub_impacts.back().residual_indentation;
+  if (result.contact_over) figures.contact_end = result.sub_impacts.back().end;
+  for (const ZoneSummary& zone : summarise_zones(result.sub_impacts)) {
+    figures.zones.push_back({zone.start, zone.end, zone.impulse});
   }
   return figures;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "subimpact/case/case.h"
@@ -21,9 +22,10 @@ Case coarse_case(const Case& input, int cells, double end);
 /// some 50; 0 where these would take 20 times as much.
 int affordable_cells(const Case& input, double end, int most, double work);
 
-/// Nothing where the case cannot be run.
-std::optional<Result> coarse_run(const Case& input, const Progress& progress = {});
+/// With a step that is stable. Nothing where the case cannot be run.
+std::optional<Result> coarse_run(Case input, const Progress& progress = {});
 
-StrikeFigures figures_of(const Result& result);
+/// Parting, largest force and indentation are those of contacts up to a time (s).
+StrikeFigures figures_of(const Result& result, double until = HUGE_VAL);
 
 }  // namespace subimpact

@@ -125,11 +125,13 @@ std::size_t add_samples(Predictability& predictability, const Case& input,
   if (2 * n_missing > most_samples) return n_missing;
   predictability.n_samples = samples.size();
   predictability.samples_mesh = mesh_words(base);
+  const std::optional<Values> nominal = values_of(base, options.progress);
   for (std::size_t k = 0; k < std::size(totals); ++k) {
     std::vector<double> values;
     for (const auto& of_one : samples) values.push_back((*of_one)[k]);
     if (std::ranges::any_of(values, [](double x) { return std::isnan(x); })) continue;
     predictability.totals.push_back(summary_of(totals[k].name, std::move(values)));
+    if (nominal) predictability.totals.back().nominal = (*nominal)[k];
     if (totals[k].of == velocity_of) {
       predictability.striker_velocity_scatter = predictability.totals.back().deviation;
     }

@@ -32,11 +32,11 @@ void expect_numbers(const Answer& answer, const char* text, const char* error, c
 // The sample with errors of the body: 2000 N of the contact law and 500 N of the width.
 Result result_with_body_errors() {
   Result result = sample_result_with_errors(3);
-  ModelErrors& errors = result.model_errors.emplace();
+  BodyErrors& errors = result.body_errors.emplace();
   errors.value.peak_force = result.max_force;
   errors.value.parting = 333.3e-6;
-  errors.parts = {{"width", "", {1e-6, 500.0, {}, {}}},
-                  {"contact law", "", {2e-6, 2000.0, {}, {}}}};
+  errors.parts = {{BodyPart::width, {1e-6, 500.0}}, {BodyPart::contact_law, {2e-6, 2000.0}}};
+  errors.error = {3e-6, 2500.0};
   return result;
 }
 
@@ -89,7 +89,8 @@ TEST(Answers, HaveTheSumOfThePartsAsErrorOfTheBody) {
 
 TEST(Answers, WithAPartThatIsNotKnownHaveNoErrorOfTheBodyButALeastOne) {
   Result result = result_with_body_errors();
-  result.model_errors->parts[0].change.peak_force.reset();
+  result.body_errors->parts[0].change.peak_force.reset();
+  result.body_errors->error.peak_force.reset();
   const Answer answer = answer_to(paper_case(), result, largest_force);
   EXPECT_EQ(answer.body_text, "at least 2.0");
   EXPECT_FALSE(answer.body_error);

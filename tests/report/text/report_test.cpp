@@ -133,11 +133,11 @@ TEST(Advice, OnSearchesThatTheLimitOfWorkEndedRaisesIt) {
 
 TEST(Advice, OnShearIsTimoshenkosTheoryWhereShearMatters) {
   Result result = result_that_took_a_while(3);
-  result.model_errors.emplace().value.parting = 200e-6;
-  result.model_errors->parts = {{"shear", "", {0.5e-6, {}, {}, {}}}};
+  result.body_errors.emplace().value.parting = 200e-6;
+  result.body_errors->parts = {{BodyPart::shear, {0.5e-6}}};
   EXPECT_EQ(advice_on(result), "");
   for (const std::optional<double> change : {std::optional(10e-6), std::optional<double>()}) {
-    result.model_errors->parts.front().change.parting = change;
+    result.body_errors->parts.front().change.parting = change;
     EXPECT_EQ(advice_on(result), "--set beam.theory=timoshenko\n--set beam.poisson=0.3\n");
   }
 }

@@ -41,7 +41,7 @@ def finer_peaks(case, result, ratio):
     if solver["method"] != "central-difference":
         finer["solver.rtol"] = max(1e-11, 0.1 * solver["rtol"])
     finer["output.interval"] = case["time.end"] / INSTANTS
-    run = si.run(finer, error_bars="off", model_errors=False, timeout=MOST_SECONDS)
+    run = si.run(finer, error_bars="off", body_errors=False, timeout=MOST_SECONDS)
     if run.outcome != "completed":
         raise TimeoutError(run.message)
     return {name: max(np.abs(run.envelope[side + name[3:]]).max() for side in ("max", "min")) for name in PEAKS}

@@ -16,7 +16,7 @@ PLAIN = {"output.sections": [], "output.points": [], "output.shapes": 0.0, "outp
 
 
 def run(case):
-    return si.run(case.changed(PLAIN), error_bars="off", model_errors=False)
+    return si.run(case.changed(PLAIN), error_bars="off", body_errors=False)
 
 
 def signal_of(result, seed, noise, shift, cutoff=None, memory=0.0, gain=1.0):

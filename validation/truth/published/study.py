@@ -25,7 +25,7 @@ def show(opening):
     seconds = time.monotonic() - begun
     model = {key: found[key] for key in MODEL}
     fine = case.changed({**model, "model.mesh": "cells", "model.segments": CELLS, "output.interval": 0.0})
-    right = si.run(fine, error_bars="off", model_errors=False).sub_impacts
+    right = si.run(fine, error_bars="off", body_errors=False).sub_impacts
     hits, n_wrong, differences = found.sub_impacts, 0, []
     print(f"\ncontacts parted by less than {1e6 * opening:g} um joined: {len(hits)}, on {CELLS} cells {len(right)}; "
           f"{int(hits['certain'].sum())} certain, in {seconds:.1f} s\n\n"

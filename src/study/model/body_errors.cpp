@@ -1,0 +1,437 @@
+#include "subimpact/study/model/body_errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "study/judgement/totals.h"
+#include "study/model/body_parts.h"
+#include "study/model/coarse_strike.h"
+#include "study/model/contact_limits.h"
+#include "study/refinement/refinement.h"
+#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double share_of_work = 0.12;  // of each horizon
+constexpr double least_work = 2e6;      // some 10 ms
+constexpr double dearer = 1.5;          // an evaluation on a coarse mesh that yields
+constexpr double coarsest = 0.02;       // of the mesh of the run
+constexpr double n_rows = 50.0;         // of which largest displacements are taken
+constexpr int most_cells = 241;         // where the mesh of the run does not do
+constexpr double times_parting = 2.0;   // horizon of what is decided early
+constexpr double most_energy_lost = 0.05;
+
+using Number = std::optional<double>;
+using Figure = Number StrikeFigures::*;
+using Pair = std::array<Number, 2>;  // of start and end of a sub-impact
+
+constexpr Figure times[] = {&StrikeFigures::parting, &StrikeFigures::contact_end,
+                            &StrikeFigures::rests_since};
+
+bool yields(const Result& result) { return result.n_yielded_sections > 0; }
+
+// How far one run lies from another: nothing where one of them lacks the number.
+Number distance(const Number& a, const Number& b) {
+  return a && b ? Number(std::abs(*a - *b)) : std::nullopt;
+}
+
+// What a part or a sum of parts changes.
+struct Changes {
+  StrikeFigures figures;
+  std::vector<Pair> rows;
+
+  // Calls `use` with each number of this one and of another.
+  template <class Use>
+  void zip(Changes& other, Use use) {
+    for (const Figure figure : strike_figures) use(figures.*figure, other.figures.*figure);
+    for (std::size_t z = 0; z < figures.zones.size(); ++z) {
+      for (const auto member : zone_figures) {
+        use(figures.zones[z].*member, other.figures.zones[z].*member);
+      }
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (const std::size_t k : {0, 1}) use(rows[i][k], other.rows[i][k]);
+    }
+  }
+};
+
+// Runs on one mesh up to a time.
+struct Horizon {
+  double end = 0.0;    // s
+  double ratio = 1.0;  // of the mesh over that of the run
+  double work = 0.0;   // of a run
+  std::optional<Result> base = {};
+};
+
+// The opening after the contact that ends nearest to a time; 0 if there is none.
+double opening_near(double time, const Result& run) {
+  double opening = 0.0, nearest = HUGE_VAL;
+  for (const SubImpact& s : run.sub_impacts) {
+    if (!s.end || !s.opening || std::abs(*s.end - time) >= nearest) continue;
+    nearest = std::abs(*s.end - time);
+    opening = *s.opening;
+  }
+  return opening;
+}
+
+class Study {
+ public:
+  Study(const Case& input, const GivenKeys& given, const Result& result, const Progress& progress)
+      : input_(input), result_(result), progress_(progress) {
+    errors_.value = figures_of(result);
+    if (!yields(result)) {
+      errors_.value.permanent_set.reset();
+      input_.model.section = SectionKind::elastic;
+    }
+    if (input.scene.striker.fixed) errors_.value.striker_velocity.reset();
+    if (!result.contact_over) errors_.value.contact_end.reset();
+    touch_ = result.sub_impacts.front().start;
+    energy_ = std::max(result.used.initial_energy, 0.0) + std::max(result.final_energies.work, 0.0);
+    largest_force_ = largest_possible_force(with_elastic_contact(input_), result);
+    try {
+      if (mesh_order(input_)) refinement_.emplace(input_, OpenChoices());
+    } catch (const InvalidCase&) {  // its mesh cannot be resized
+    }
+    variants_ = body_variants(input_, given, yields(result));
+  }
+
+  /// Whether it was not stopped.
+  bool run() {
+    choose_horizons();
+    sum_ = at_least_ = unchanged();
+    for (const BodyVariant& variant : variants_) {
+      Changes changes = changes_by(variant);
+      cap(changes.figures);
+      add(variant.kind, std::move(changes));
+    }
+    add_estimates();
+    add_openings();
+    errors_.error = sum_.figures;
+    errors_.at_least = at_least_.figures;
+    cap(errors_.error);
+    cap(errors_.at_least);
+    return !is_stopped_;
+  }
+
+  void store(Result& result) {
+    for (std::size_t i = 0; i < sum_.rows.size(); ++i) {
+      result.sub_impacts[i].start_body_error = sum_.rows[i][0];
+      result.sub_impacts[i].end_body_error = sum_.rows[i][1];
+    }
+    result.body_errors = std::move(errors_);
+  }
+
+ private:
+  const StrikeFigures& value() const { return errors_.value; }
+
+  // 0 where the run has a number.
+  Changes unchanged() const {
+    Changes changes{value(), {}};
+    for (const SubImpact& s : result_.sub_impacts) changes.rows.push_back({s.start, s.end});
+    Changes same = changes;
+    changes.zip(same, [](Number& number, Number&) {
+      if (number) *number = 0.0;
+    });
+    return changes;
+  }
+
+  // Meshes by counted work, that to the parting not by the end of the run: what is decided by twice
+  // that time may take least_work or, if more, a run on the coarsest mesh worth one.
+  void choose_horizons() {
+    const double end = result_.outcome.time, work = counted_work(input_, result_);
+    double n_runs = 2.0;
+    for (const BodyVariant& variant : variants_) {
+      n_runs += static_cast<double>(variant.cases.size()) + (variant.base ? 1.0 : 0.0);
+    }
+    n_runs *= input_.strikes;
+    const auto ratio_for = [&](double part, double most) {
+      const double share = most / (n_runs * part * work);  // that each run may take
+      return share >= 1.0 || !mesh_order(input_) ? 1.0
+                                                 : std::pow(share / dearer, 1.0 / usual_growth);
+    };
+    const double most = share_of_work * work_with_others * input_.strikes * work;
+    const double of_all = std::max(most, least_work);
+    Horizon whole{end, ratio_for(1.0, of_all), of_all / n_runs};
+    if (value().parting && input_.strikes == 1) {
+      until_ = touch_ + times_parting * (*value().parting - touch_);
+      const double part = (until_ - touch_) / (end - touch_);
+      Horizon early{std::min(until_, end), ratio_for(part, least_work), least_work / n_runs};
+      if (refinement_) {
+        const double first =
+            static_cast<double>(mesh_count(refinement_->first())) / mesh_count(input_);
+        early.ratio = std::max(early.ratio, std::min({first, ratio_for(part, most), 1.0}));
+      }
+      if (early.end == end) whole.ratio = std::max(whole.ratio, early.ratio);
+      if (early.end < end && std::min(early.ratio, whole.ratio) < 1.0) horizons_.push_back(early);
+    }
+    horizons_.push_back(whole);
+    for (Horizon& horizon : horizons_) {
+      const bool is_run = horizon.ratio == 1.0 && horizon.end == end && input_.strikes == 1;
+      horizon.base = is_run ? std::optional(result_) : run_of(on_mesh(input_, horizon));
+    }
+  }
+
+  std::optional<Case> on_cells(const Case& of, const Horizon& horizon) const {
+    const int cells = affordable_cells(of, horizon.end, most_cells, horizon.work);
+    if (cells == 0) return std::nullopt;
+    Case other = coarse_case(of, cells, horizon.end);
+    other.output.opening = input_.output.opening;
+    other.output.zone_gap = input_.output.zone_gap;
+    return other;
+  }
+
+  // Of the mesh and method of the run, but for a beam that these do not suit.
+  std::optional<Case> on_mesh(const Case& of, const Horizon& horizon) const {
+    const bool was_rigid = !descriptor_of(input_.model.mesh).bends;
+    const bool bends = descriptor_of(of.model.mesh).bends && !of.scene.beam.fixed;
+    if (was_rigid && bends) return on_cells(of, horizon);
+    Case other = of;
+    if (horizon.ratio < 1.0) {
+      if (horizon.ratio < coarsest || !refinement_) return std::nullopt;
+      const std::optional<Case> resized = refinement_->resized(of, horizon.ratio);
+      if (!resized) return std::nullopt;
+      other = *resized;
+    }
+    const auto& suits = descriptor_of(other.model.mesh).suits;
+    if (!suits(other.scene.beam)) {
+      other.model.elements = 2 * (other.model.elements / 4 + 1);
+      other.model.mesh = MeshKind::spectral;
+    }
+    other.scatter.clear();
+    other.strikes = 1;
+    other.accuracy = {};
+    other.accuracy.energy = 1.0;  // what is lost is judged here
+    other.output.keep_no_rows();
+    other.output.interval = horizon.end / n_rows;
+    other.output.shapes = other.end_time = horizon.end;
+    // Without gravity nothing changes after the last contact.
+    const bool weighs = of.scene.gravity != 0.0 || of.scene.beam.has_loads();
+    other.stop = weighs ? StopRule::end_time : StopRule::no_more_contact;
+    return other;
+  }
+
+  // The last one of as many strikes as the beam receives.
+  std::optional<Result> run_of(std::optional<Case> next) {
+    std::optional<Result> run;
+    for (int strike = 1; next && strike <= input_.strikes && !is_stopped_; ++strike) {
+      run = coarse_run(*next, progress_);
+      is_stopped_ = run && run->outcome.kind == OutcomeKind::stopped;
+      const bool is_sound =
+          run && run->outcome.completed() && run->max_energy_error < most_energy_lost;
+      if (!is_sound) return std::nullopt;
+      next->parts.start = run->end_state;
+    }
+    return is_stopped_ ? std::nullopt : std::move(run);
+  }
+
+  // The time (s) at which a figure is decided; infinite: at the end.
+  double decided(Figure figure) const {
+    const auto largest = [&](double SubImpact::*number) {
+      return std::ranges::max_element(result_.sub_impacts, {}, number)->peak_time;
+    };
+    if (figure == &StrikeFigures::parting) return *value().parting;
+    if (figure == &StrikeFigures::peak_force) return largest(&SubImpact::peak_force);
+    if (figure == &StrikeFigures::max_indentation) return largest(&SubImpact::max_indentation);
+    return HUGE_VAL;
+  }
+
+  // Of one run beside the base of its horizon. What does not lie within the horizon stays as it is.
+  void change(const Horizon& horizon, const Result& from, const Result& other, Changes& changes) {
+    const bool is_whole = &horizon == &horizons_.back();
+    const bool has_early = is_whole && horizons_.size() > 1;
+    const auto widen = [](Number& number, const Number& by) {
+      if (number) number = by ? Number(std::max(*number, *by)) : std::nullopt;
+    };
+    const StrikeFigures base = figures_of(from), with = figures_of(other);
+    const StrikeFigures base_early = figures_of(from, until_),
+                        other_early = figures_of(other, until_);
+    for (const Figure figure : strike_figures) {
+      if (!(value().*figure)) continue;
+      const bool early = decided(figure) <= until_;
+      if (early ? has_early : !is_whole) continue;
+      Number by =
+          distance((early ? base_early : base).*figure, (early ? other_early : with).*figure);
+      // Coarse meshes bias the force, less so its ratio.
+      const double force = (early ? base_early : base).peak_force.value_or(0.0);
+      if (by && figure == &StrikeFigures::peak_force && force > 0.0) {
+        *by *= *value().peak_force / force;
+      }
+      widen(changes.figures.*figure, by);
+    }
+    const std::vector<ZoneFigures>&before = base.zones, &after = with.zones;
+    for (std::size_t z = 0; is_whole && z < changes.figures.zones.size(); ++z) {
+      const bool is_there = z < before.size() && z < after.size();
+      for (const auto member : zone_figures) {
+        widen(changes.figures.zones[z].*member,
+              is_there ? distance(before[z].*member, after[z].*member) : std::nullopt);
+      }
+    }
+    const Counterparts in_base = counterparts(result_.sub_impacts, from.sub_impacts),
+                       in_other = counterparts(from.sub_impacts, other.sub_impacts);
+    for (std::size_t i = 0; i < changes.rows.size(); ++i) {
+      const bool ends_early = result_.end_of(result_.sub_impacts[i]) <= until_;
+      if (ends_early ? has_early : !is_whole) continue;
+      const SubImpact* one = in_base.of[i];
+      const SubImpact* two =
+          one ? in_other.of[static_cast<std::size_t>(one - from.sub_impacts.data())] : nullptr;
+      widen(changes.rows[i][0], two ? distance(one->start, two->start) : std::nullopt);
+      widen(changes.rows[i][1], two ? distance(one->end, two->end) : std::nullopt);
+    }
+  }
+
+  Changes changes_by(const BodyVariant& variant) {
+    Changes changes = unchanged();
+    Changes unknown{{}, std::vector<Pair>(changes.rows.size())};
+    unknown.figures.zones.resize(changes.figures.zones.size());
+    if (variant.cases.empty()) return unknown;
+    double of_opening = 0.0;
+    for (const Horizon& horizon : horizons_) {
+      const auto own = variant.base ? run_of(on_cells(*variant.base, horizon)) : std::nullopt;
+      const std::optional<Result>& base = variant.base ? own : horizon.base;
+      for (const Case& other : variant.cases) {
+        const auto run =
+            base ? run_of(variant.base ? on_cells(other, horizon) : on_mesh(other, horizon))
+                 : std::nullopt;
+        if (!run) return unknown;
+        change(horizon, *base, *run, changes);
+        if (!value().parting || &horizon != &horizons_.front()) continue;
+        of_opening = std::max(of_opening, std::abs(opening_near(*value().parting, *run) -
+                                                   opening_near(*value().parting, *base)));
+      }
+    }
+    change_of_opening_ += of_opening;
+    return changes;
+  }
+
+  // No more than energy and momentum allow.
+  void cap(StrikeFigures& changes) const {
+    const auto limit = [](Number& change, double largest) {
+      if (change) change = std::min(*change, largest);
+    };
+    const double force = result_.max_force;
+    limit(changes.peak_force, std::max(force, largest_force_ - force));
+    if (input_.scene.striker.fixed) return;
+    const double velocity = std::sqrt(2.0 * energy_ / input_.scene.striker.mass);
+    limit(changes.striker_velocity, velocity + std::abs(result_.striker_velocity));
+  }
+
+  void add(BodyPart kind, Changes changes) {
+    const auto sum = [&](Changes& to, bool needs_all) {
+      to.zip(changes, [&](Number& total, const Number& change) {
+        if (total && (change || needs_all))
+          total = change ? Number(*total + *change) : std::nullopt;
+      });
+    };
+    sum(sum_, true);
+    sum(at_least_, false);
+    errors_.parts.push_back({kind, std::move(changes.figures)});
+  }
+
+  // The largest rotation (rad) up to a time (s); NaN: not known.
+  double rotation_until(double time) {
+    if (time <= touch_) return 0.0;
+    if (time >= result_.outcome.time || input_.strikes > 1) return result_.largest_rotation;
+    Horizon until = horizons_.front();
+    until.end = time;
+    const std::optional<Result> run = run_of(on_mesh(input_, until));
+    return run ? run->largest_rotation : NAN;
+  }
+
+  // A change by a share of each number, that up to its time; of times by one of that since the
+  // first touch.
+  template <class Share>
+  Changes by_share(Share share) {
+    Changes changes = unchanged();
+    const auto known = [](double x) { return std::isnan(x) ? Number() : Number(x); };
+    const auto of_time = [&](Number& change, double time) {
+      if (change) change = known(share(time) * (time - touch_));
+    };
+    for (const Figure figure : strike_figures) {
+      if (!(value().*figure)) continue;
+      const double size = std::abs(*(value().*figure));
+      const bool is_time = std::ranges::count(times, figure) > 0;
+      if (is_time) of_time(changes.figures.*figure, size);
+      if (!is_time) changes.figures.*figure = known(share(decided(figure)) * size);
+    }
+    for (std::size_t z = 0; z < changes.figures.zones.size(); ++z) {
+      ZoneFigures& zone = changes.figures.zones[z];
+      of_time(zone.start, *value().zones[z].start);
+      if (zone.end) of_time(zone.end, *value().zones[z].end);
+      zone.impulse = known(share(HUGE_VAL) * std::abs(*value().zones[z].impulse));
+    }
+    for (std::size_t i = 0; i < changes.rows.size(); ++i) {
+      of_time(changes.rows[i][0], result_.sub_impacts[i].start);
+      if (result_.sub_impacts[i].end) of_time(changes.rows[i][1], *result_.sub_impacts[i].end);
+    }
+    return changes;
+  }
+
+  void add_estimates() {
+    const Beam& beam = input_.scene.beam;
+    if (beam.fixed) return;
+    const double peak = decided(&StrikeFigures::peak_force);
+    const double parting = value().parting.value_or(0.0);
+    const double at_peak = rotation_until(peak);
+    const double at_parting = parting > peak ? rotation_until(parting) : at_peak;
+    add(BodyPart::finite_rotations, by_share([&](double time) {
+          const double rotation = time <= peak      ? at_peak
+                                  : time <= parting ? at_parting
+                                                    : result_.largest_rotation;
+          return rotation * rotation;
+        }));
+    if (!yields(result_)) return;
+    Changes hinge = unchanged();
+    const double rotation = largest_magnitude(result_.plastic_zones, &PlasticZone::rotation);
+    if (value().permanent_set) hinge.figures.permanent_set = rotation * beam.height() / 8.0;
+    add(BodyPart::hinge_length, std::move(hinge));
+  }
+
+  // How far the parting moves if openings are wrong by as much as the variants change that one.
+  void add_openings() {
+    if (!value().parting) return;
+    double furthest = 0.0;
+    for (const SubImpact& s : result_.sub_impacts) {
+      if (!s.end || !s.opening || *s.opening + change_of_opening_ <= hair_opening) continue;
+      furthest = std::max(furthest, std::abs(*s.end - *value().parting));
+      if (*s.opening - change_of_opening_ > hair_opening) break;
+    }
+    Changes openings = unchanged();
+    openings.figures.parting = furthest;
+    add(BodyPart::thin_openings, std::move(openings));
+  }
+
+  Case input_;
+  const Result& result_;
+  const Progress& progress_;
+  std::optional<Refinement> refinement_;  // none: a rigid beam
+  std::vector<BodyVariant> variants_;
+  BodyErrors errors_;
+  Changes sum_, at_least_;
+  double energy_ = 0.0, largest_force_ = 0.0;  // J, N
+  double touch_ = 0.0;                         // s
+  double until_ = HUGE_VAL;  // s: what is decided by then does not depend on the end of the run
+  std::vector<Horizon> horizons_;  // the last one is the whole run
+  bool is_stopped_ = false;
+  double change_of_opening_ = 0.0;  // m, of the parting
+};
+
+}  // namespace
+
+void add_body_errors(const Case& input, Result& result, const GivenKeys& given,
+                     const Progress& progress) {
+  const CaseParts& own = input.parts;
+  if (own.mesh || own.contact_law || own.section || own.start || result.sub_impacts.empty() ||
+      !result.outcome.completed()) {
+    return;
+  }
+  Study study(input, given, result, progress);
+  if (study.run()) study.store(result);
+}
+
+}  // namespace subimpact

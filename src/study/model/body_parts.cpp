@@ -1,0 +1,178 @@
+#include "study/model/body_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "model/contact/contact_laws.h"
+#include "study/model/contact_limits.h"
+#include "subimpact/study/model/scene_choice.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double larger_coefficient = 1.02;
+constexpr double larger_poisson = 0.05;
+constexpr double fully_plastic = 2.8;  // mean pressure over yield stress
+constexpr double deeper = 1.03;        // the error of Boussinesq's root there is 2.7 %
+// w = 0.00725 F b^2/D under a force on a long plate clamped along both sides, b apart
+// (S. Timoshenko, S. Woinowsky-Krieger, Theory of Plates and Shells, 1959, table 37).
+constexpr double plate_compliance = 0.00725;
+
+template <class Change>
+Case with(const Case& input, Change change) {
+  Case other = input;
+  change(other.scene);
+  return other;
+}
+
+// The contact law of a changed scene in the scene as it is.
+template <class Change>
+Case with_law_of(const Case& input, Change change) {
+  Case other = input;
+  other.parts.contact_law = make_contact_law(with(input, change).scene);
+  return other;
+}
+
+BodyVariant shear_of(const Case& input) {
+  if (input.scene.beam.shears()) {
+    return {BodyPart::shear_coefficient, {with(input, [](Scene& scene) {
+              const double larger = larger_coefficient * scene.beam.used_shear_coefficient();
+              scene.beam.shear_coefficient = std::min(1.0, larger);
+            })}};
+  }
+  return {BodyPart::shear, {with(input, [](Scene& scene) {
+            scene.beam.theory = BeamTheory::timoshenko;
+            scene.beam.poisson = scene.beam_poisson().value_or(usual_poisson);
+          })}};
+}
+
+// The wall of a hollow section under the nose as a spring in place of the contact.
+std::optional<Case> on_wall(const Case& input) {
+  const Beam& beam = input.scene.beam;
+  const CrossSection& section = beam.section;
+  const bool has_wall = section.shape == SectionShape::box || section.shape == SectionShape::tube;
+  if (!has_wall || beam.fixed) return std::nullopt;
+  return with(input, [&](Scene& scene) {
+    const double nu = scene.beam_poisson().value_or(usual_poisson);
+    const double wall = *section.wall, width = beam.outer_solid().width - wall;
+    scene.contact = {};
+    scene.contact.kind = ContactKind::linear;
+    scene.contact.stiffness = beam.youngs_modulus * std::pow(wall, 3) /
+                              (12.0 * (1.0 - nu * nu) * plate_compliance * width * width);
+  });
+}
+
+std::optional<BodyVariant> law_of(const Case& input) {
+  const Contact& contact = input.scene.contact;
+  BodyVariant law{BodyPart::contact_law};
+  if (contact.stiffness || contact.kind == ContactKind::curve) return std::nullopt;
+  const bool is_line = contact.kind == ContactKind::line;
+  if (!contact.is_from_mid_plane()) {
+    Case next = input;
+    choose_scene(next, {{"beam.theory"}, {}});
+    const Contact& better = next.scene.contact;
+    if (better.kind != contact.kind || better.indentation != contact.indentation) {
+      law.cases.push_back(next);
+      return law;
+    }
+    if (contact.kind == ContactKind::foundation) return law;
+    if (const auto wall = on_wall(input)) law.cases.push_back(*wall);
+  } else {
+    law.cases.push_back(with_law_of(input, [&](Scene& scene) {
+      Beam& beam = scene.beam;
+      if (is_line) {
+        beam.poisson = scene.contact.beam_poisson = 0.0;  // plane stress
+      } else {
+        beam.thickness *= deeper;
+        if (beam.section.height) *beam.section.height *= deeper;
+      }
+    }));
+  }
+  if (contact.kind != ContactKind::hertz && std::isfinite(input.scene.beam.yield_stress)) {
+    const double first = is_line ? yield_pressure_over_stress_of_line : yield_pressure_over_stress;
+    for (const double share : {first, fully_plastic}) {
+      law.cases.push_back(with(input, [&](Scene& scene) {
+        scene.contact.pressure_by_depth = false;
+        scene.contact.yield_pressure = share * scene.beam.yield_stress;
+      }));
+    }
+  }
+  return law.cases.empty() ? std::nullopt : std::optional(law);
+}
+
+BodyVariant stretching_of(const Case& input) {
+  if (input.scene.beam.stretches()) {
+    return {BodyPart::stretching,
+            {with(input, [](Scene& scene) { scene.beam.axial = AxialEnds::free; })}};
+  }
+  // A beam with a tension has no modes to damp.
+  const Case base = with(input, [](Scene& scene) { scene.beam.damping = {}; });
+  return {BodyPart::stretching,
+          {with(base, [](Scene& scene) { scene.beam.axial = AxialEnds::held; })},
+          base};
+}
+
+// At rest under gravity where supports hold the beam.
+Case under_gravity(const Case& input) {
+  return with(input, [](Scene& scene) {
+    Beam& beam = scene.beam;
+    std::size_t n_held = beam.foundation > 0.0 ? 2 : beam.springs.size();
+    for (const EndSupport end : beam.ends) {
+      n_held += end == EndSupport::clamped ? 2 : end == EndSupport::pinned ? 1 : 0;
+    }
+    scene.gravity = standard_gravity;
+    const bool rests = !beam.fixed && !beam.moves_at_start() && n_held >= 2;
+    if (rests && !beam.has_loads()) beam.start = BeamStart::equilibrium;
+  });
+}
+
+}  // namespace
+
+std::vector<BodyVariant> body_variants(const Case& input, const GivenKeys& given, bool yields) {
+  const Beam& beam = input.scene.beam;
+  const bool bends = descriptor_of(input.model.mesh).bends && !beam.fixed;
+  std::vector<BodyVariant> all;
+  if (bends) all.push_back(shear_of(input));
+  if (!bends && !beam.fixed) {
+    all.push_back({BodyPart::bending, {input}});
+    all.back().cases.front().model.mesh = MeshKind::cells;
+    all.back().cases.front().model.mesh = default_mesh(all.back().cases.front());
+  }
+  if (const auto law = law_of(input)) all.push_back(*law);
+  const bool has_poisson = given.contain("beam.poisson") || given.contain("contact.beam_poisson");
+  if (input.scene.beam_poisson() && !has_poisson && !beam.material) {
+    all.push_back({BodyPart::poisson, {with(input, [](Scene& scene) {
+                     for (auto* poisson : {&scene.beam.poisson, &scene.contact.beam_poisson}) {
+                       if (*poisson) **poisson += larger_poisson;
+                     }
+                   })}});
+  }
+  if (const auto steel = with_steel_contact(input)) {
+    all.push_back({BodyPart::nose, {steel->input}});
+  }
+  if (input.scene.gravity == 0.0 && !given.contain("scene.gravity")) {
+    all.push_back({BodyPart::gravity, {under_gravity(input)}});
+  }
+  const bool is_held = std::ranges::count(beam.ends, EndSupport::free) == 0;
+  if (bends && is_held) all.push_back(stretching_of(input));
+  if (yields) {
+    all.push_back({BodyPart::width, {input}});
+    Case& wide = all.back().cases.front();
+    wide.parts.contact_law = contact_law_of(input);
+    wide.scene.beam.yield_stress *= 2.0 / std::numbers::sqrt3;
+  }
+  return all;
+}
+
+Case with_elastic_contact(Case input) {
+  input.scene.beam.yield_stress = HUGE_VAL;
+  input.scene.contact.yield_pressure.reset();
+  input.scene.contact.pressure_by_depth = false;
+  return input;
+}
+
+}  // namespace subimpact
