@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 
-#include "case/counted.h"
 #include "case/keys/case_choices.h"
-#include "case/meshes.h"
 #include "case/problem.h"
+#include "io/records/run_record.h"
 #include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
@@ -23,54 +23,6 @@ std::string key_text(const Case& input, const char* name) {
   const CaseKey* key = find_case_key(name);
   const std::optional<KeyValue> value = key->get(input);
   return value ? to_text(*value) : key->default_text;
-}
-
-std::string symmetry_text(const Case& input, const ResolvedSettings& used) {
-  if (!descriptor_of(input.model.mesh).bends)
-    return "not applicable: a rigid body has at most two unknowns";
-  if (used.half_model)
-    return "used: the strike is at mid-span and both ends are alike, so one half is modelled";
-  if (input.model.symmetry == SymmetryUse::off) return "not used (model.symmetry = \"off\")";
-  return "not used: the scene is not symmetric about mid-span, so the whole beam is modelled";
-}
-
-std::string mesh_text(const Case& input, const ResolvedSettings& used) {
-  const auto& refinement = descriptor_of(input.model.mesh).refinement;
-  if (input.parts.mesh || !refinement || input.model.strike_refinement != 1.0) return used.mesh;
-  const double size = mm * refinement->size(input);
-  const bool longer = input.model.spacing == CellSpacing::points;
-  return fmt::format(
-      "{}; {} of {:.6g} mm{}", used.mesh, refinement->parts, size,
-      longer ? fmt::format(", whole ones at both ends: the equations of a beam of {:.7g} mm",
-                           size * input.model.segments)
-             : "");
-}
-
-std::string section_text(const Case& input, const ResolvedSettings& used) {
-  if (!descriptor_of(input.model.mesh).bends) return "none: a rigid beam does not bend";
-  if (input.model.section == SectionKind::elastic) {
-    return used.section + ": sections never yield";
-  }
-  if (std::isinf(input.scene.beam.yield_stress)) {
-    return fmt::format("elastic, although {} was requested: the yield stress is infinite",
-                       key_text(input, "model.section"));
-  }
-  const double share = input.scene.beam.hardening;
-  const std::string hardening =
-      share > 0.0 ? fmt::format("; hardens with {:.6g} of Young's modulus", share) : "";
-  if (input.parts.section) {
-    return fmt::format("{}: first yield at a curvature of {:.6g} 1/m{}", used.section,
-                       used.yield_curvature * input.parts.section->first_yield(), hardening);
-  }
-  if (descriptor_of(input.model.section).has_layers) {
-    const Fibres fibres = Fibres::layered(input.model.layers, input.scene.beam);
-    return fmt::format(
-        "{} layers: elastic stiffness {:.6f} of the exact section's, first yield at "
-        "{:.6g} 1/m{}",
-        input.model.layers, fibres.slope(), used.yield_curvature * fibres.first_yield(), hardening);
-  }
-  return fmt::format("exact: first yield at a curvature of {:.6g} 1/m{}", used.yield_curvature,
-                     hardening);
 }
 
 // A nose radius describes the striker whether or not the law uses it; where it does not, the
@@ -123,33 +75,6 @@ std::string yield_velocity_text(const Case& input) {
   return fmt::format(
       "{:.4g} m/s: slower strikes leave the contact elastic, on any beam{}", *velocity,
       leaves_out ? "; the law leaves yielding out, contact.law = \"sphere\" has it" : "");
-}
-
-std::string method_text(const Case& input, const ResolvedSettings& used) {
-  return fmt::format("{}{}{}", to_string(input.solver.method),
-                     used.table ? ", table " + *used.table : "",
-                     used.max_order ? fmt::format(", order up to {}", *used.max_order) : "");
-}
-
-std::string step_text(const Case& input, const ResolvedSettings& used) {
-  if (!used.step) {
-    return fmt::format("adaptive{}", input.solver.max_step
-                                         ? ", at most " + duration_text(*input.solver.max_step)
-                                         : "");
-  }
-  return fmt::format("fixed, {}{} ({:.3g} of the critical step)", duration_text(*used.step),
-                     input.solver.step ? "" : " by default", *used.step / used.critical_step);
-}
-
-std::string damping_text(const BeamDamping& damping) {
-  std::vector<std::string> parts;
-  if (damping.ratio > 0.0)
-    parts.push_back(fmt::format("{:.6g} of critical in every mode", damping.ratio));
-  if (damping.mass > 0.0) parts.push_back(fmt::format("by mass {:.6g} 1/s", damping.mass));
-  if (damping.stiffness > 0.0) {
-    parts.push_back(fmt::format("by stiffness {:.6g} s", damping.stiffness));
-  }
-  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string count_text(double count) {
@@ -232,42 +157,24 @@ std::string contact_section(const Case& input, const ResolvedSettings& used) {
   return text;
 }
 
-std::string model_section(const Case& input, const ResolvedSettings& used) {
-  const Scene& scene = input.scene;
-  std::string text = "Model\n";
-  text += line("mesh", mesh_text(input, used));
-  text += line("symmetry", symmetry_text(input, used));
-  text += line("unknowns", fmt::format("{} of the beam and 1 of the striker; {}", used.n_unknowns,
-                                       counted(used.n_sections, "section")));
-  text += line("section law", section_text(input, used));
-  if (!scene.beam.damping.is_none()) text += line("damping", damping_text(scene.beam.damping));
-  text += line("highest frequency", fmt::format("{:.4g} rad/s", used.highest_frequency));
-  text +=
-      line("critical step", std::isfinite(used.critical_step)
-                                ? duration_text(used.critical_step) +
-                                      " (of central differences, with the contact at its stiffest)"
-                                : "none: nothing oscillates");
-  return text;
-}
-
-std::string integration_section(const Case& input, const ResolvedSettings& used) {
-  std::string text = "Integration\n";
-  text += line("method", method_text(input, used));
-  text += line("step", step_text(input, used));
-  if (!used.step) {
-    text += line("tolerances",
-                 fmt::format("{:.3g} m and {:.3g} m/s (rtol {:g} of the scene's scales)",
-                             used.position_tolerance, used.velocity_tolerance, input.solver.rtol));
+// By the record of summary.json.
+std::string settings_section(const Case& input, const ResolvedSettings& used) {
+  Result result;
+  result.given = input;
+  result.used = used;
+  const auto listing = listing_of(run_record());
+  const std::map<std::string, std::string> meanings(listing.begin(), listing.end());
+  const Json settings = Json::parse(summary_json(input, result)).at("used");
+  std::string text = "Settings, in SI units\n";
+  for (const auto& [name, value] : settings.items()) {
+    const auto meaning = meanings.find("used." + name);
+    if (value.is_null() || meaning == meanings.end()) continue;
+    const std::string shown = value.is_number_float() ? fmt::format("{:.7g}", value.get<double>())
+                              : value.is_string()     ? value.get<std::string>()
+                                                      : value.dump();
+    text += fmt::format("  {:<32} {}: {}\n", name, shown, meaning->second);
   }
-  text += line("events", std::string(to_string(used.events)));
-  text += line("section reversals", name_of(used.reversals));
-  text += line("accuracy",
-               fmt::format("a run completes if its energy stays within {:.1e} of the initial "
-                           "energy",
-                           used.energy_tolerance));
-  text += line("end", duration_text(input.end_time));
-  text += line("files", files_text(input, used));
-  return text;
+  return text + line("files", files_text(input, used));
 }
 
 // Processor time: of an evaluation per unknown, from the cheapest to the dearest scenes of
@@ -282,8 +189,9 @@ std::string cost_section(const Case& first, const ResolvedSettings& used, const 
     return duration_text(std::stod(fmt::format("{:.1g}", seconds)));
   };
   std::string time = rough(shortest_unit * work.least + seconds_beside[0]);
-  time += work.most ? " to " + rough(longest_unit * *work.most + seconds_beside[1])
-                    : " or more, since the method chooses its steps";
+  time += work.most ? fmt::format(" to {} of a processor, the longer the more accuracy takes",
+                                  rough(longest_unit * *work.most + seconds_beside[1]))
+                    : " of a processor or more: the method chooses its steps";
   const auto n = static_cast<double>(used.n_unknowns);
   // Natural modes may take another matrix, which is not stated.
   const double model = used.memory + (used.decomposition > 0.0 ? sizeof(double) * n * n : 0.0);
@@ -291,9 +199,8 @@ std::string cost_section(const Case& first, const ResolvedSettings& used, const 
   if (first.strikes > 1) without.push_back("strikes after the first, which each take as long");
   if (!first.scatter.empty()) without.emplace_back("the runs that show the scatter");
   return "Forecast of `subimpact run`\n" +
-         line("time",
-              fmt::format("{} of a processor, the longer the more accuracy takes{}{}", time,
-                          without.empty() ? "" : "; without ", fmt::join(without, " and "))) +
+         line("time", fmt::format("{}{}{}", time, without.empty() ? "" : "; without ",
+                                  fmt::join(without, " and "))) +
          line("memory", fmt::format("about {:.0f} MB on the first mesh, and {:.0f} MB for each run "
                                     "beside it",
                                     MB * (memory_beside + model), MB * model));
@@ -311,8 +218,7 @@ std::string explanation(const Case& input, const GivenKeys& given) {
   const WorkRange work = work_expected(first, choices_left(once, given, std::nullopt));
   std::string text = (first.title.empty() ? "untitled case" : first.title) + "\n" +
                      cost_section(first, used, work) + scene_section(first, used) +
-                     contact_section(first, used) + model_section(first, used) +
-                     integration_section(first, used);
+                     contact_section(first, used) + settings_section(first, used);
   if (!first.model_choice.empty()) {
     text += fmt::format("Choice of the model\n  {}\n", first.model_choice);
   }

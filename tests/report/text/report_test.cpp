@@ -246,8 +246,9 @@ std::string explanation_of(const Case& input) {
 
 TEST(Explanation, TellsUnknownsSymmetrySectionStepTolerancesAndContact) {
   const std::string text = explanation_of(paper_case());
-  expect_in(text, "one half is modelled", "251 of the beam and 1 of the striker",
-            "40 layers: elastic stiffness 0.999375", "0.28");  // critical step, us
+  expect_in(line_of(text, "half_model"), "true");
+  expect_in(line_of(text, "n_unknowns"), "251");
+  expect_in(line_of(text, "critical_step_s"), "2.8");
   expect_in(text, "2.948976e+10 N/m^1.5", "0.0156337 mm", "12.47 ms", " of a processor", "MB");
 }
 
@@ -255,13 +256,10 @@ TEST(Explanation, FollowsTheCase) {
   const auto with = [](const std::vector<std::string>& settings) {
     return explanation_of(paper_case_with(settings));
   };
-  expect_in(with({"beam.yield_stress=inf"}), "elastic, although \"layers\" was requested",
-            "the contact never yields");
-  expect_in(with({}), "501 cells, one half by symmetry; cells of 1.41956 mm\n");
-  expect_in(with({"model.spacing=points"}), "501 points, one half by symmetry; cells of 1.4224 mm",
-            "a beam of 712.6224 mm\n");
-  expect_in(with({"model.symmetry=off"}), "not used (model");
-  expect_in(with({"striker.position=0.4"}), "not symmetric about mid-span");
+  expect_in(with({"beam.yield_stress=inf"}), "the contact never yields");
+  expect_in(with({}), "501 cells, one half by symmetry");
+  expect_in(with({"model.spacing=points"}), "501 points, one half by symmetry");
+  expect_in(line_of(with({"model.symmetry=off"}), "half_model"), "false");
   expect_in(with({"contact.law=line", "beam.poisson=0.33", "contact.yield_pressure=by-depth"}),
             "rigid nose, since contact.striker_modulus is not given; "
             "indentation from the mid-plane; mean pressure by depth\n");
