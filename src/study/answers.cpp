@@ -86,7 +86,9 @@ class Answers {
     add_bending();
     add_supports();
     const Energies& end = result_.final_energies;
-    add(AnswerKey::energy, "J", end.bending_plastic + end.contact_plastic + end.beam_damping, fixed,
+    const double dissipated = end.bending_plastic + end.contact_plastic + end.beam_damping;
+    const bool has_energy = end.taken_up() > 0.0;
+    add(AnswerKey::energy, "J", has_energy ? std::optional(dissipated) : std::nullopt, not_computed,
         RunTotal::dissipated);
     for (Answer& answer : all_) {
       if (answer.value && result_.body_errors) add_body_error(*result_.body_errors, answer);
@@ -102,6 +104,10 @@ class Answers {
   // `otherwise`: why there is no value.
   Answer& add(AnswerKey key, std::string_view unit, std::optional<double> value, WhyNot otherwise,
               std::optional<RunTotal> total = {}) {
+    if (value && !std::isfinite(*value)) {  // of a run that failed
+      value.reset();
+      otherwise = not_computed;
+    }
     Answer& answer = all_.emplace_back(Answer{key, unit, value});
     if (!value) answer.why = otherwise;
     if (value && total) answer.error = error_of_total(result_, *total);

@@ -1,4 +1,4 @@
-"""Screen, files and Python show the same answers, as text."""
+"""Screen, files, page and Python show the same answers, as text."""
 
 import random
 import re
@@ -7,6 +7,7 @@ import pytest
 
 import subimpact as si
 from conftest import README_STRIKE
+from subimpact.page.markup import in_print
 
 TEMPLATES = ("hammer", "ball-drop", "cantilever", "stop", "repeated-strikes", "tube", "ensemble")
 
@@ -32,14 +33,15 @@ ends = ["{ends[0]}", "{ends[1]}"]
 
 
 def strike(case, program, directory):
-    """The screen of a run, and the run as Python reads it."""
+    """The screen of a run, its page, and the run as Python reads it."""
     (directory / "case.toml").write_text(case)
     screen = program("run", directory / "case.toml", "--out", directory / "run", "--all").stdout
-    return screen, si.load(directory / "run")
+    program("report", directory / "run")
+    return screen, (directory / "run/report.html").read_text(), si.read_results(directory / "run")
 
 
-def check(screen, result):
-    """Every text of the answers stands on the screen, and no other number in its table."""
+def check(screen, page, result):
+    """Every text of the answers stands on screen and page, and no other number in the table of the screen."""
     words = " ".join(screen.split())
     assert result.verdict["text"] in words
     table = screen[screen.index("+- computed"):].split("\n\n")[0].split("\n")[1:]
@@ -57,7 +59,11 @@ def check(screen, result):
         rest = " ".join(row.strip()[len(label):].split())
         part = answer["parts"][0]["label"] if answer["parts"] and answer["parts"][0]["change"] != 0 else ""
         assert rest == " ".join(f"{answer['text']} {answer['error_text']} {answer['body_text']} {part}".split())
+    assert in_print(result.verdict["text"]) in page
     for answer in result.answers:
+        if answer["known"] and answer["key"] != "zones":
+            errors = f"{answer['error_text']} computed, {answer['body_text']} body" if answer["error_text"] else ""
+            assert re.search(f">{re.escape(in_print(answer['text']))}</b><small>[^<]*{re.escape(in_print(errors))}", page)
         assert answer["known"] == (answer["value"] is not None) == (answer["why"] is None)
 
 
@@ -73,8 +79,8 @@ def test_a_random_scene_has_the_same_answers_on_the_screen_and_in_files(seed, pr
 
 
 def test_a_run_made_in_python_has_the_answers_of_the_program(program, tmp_path):
-    screen, loaded = strike(README_STRIKE, program, tmp_path)
-    check(screen, loaded)
+    screen, page, loaded = strike(README_STRIKE, program, tmp_path)
+    check(screen, page, loaded)
     made = si.run(si.Case.from_text(README_STRIKE, "case.toml"))
     assert made.answers == loaded.answers
     assert made.verdict == loaded.verdict

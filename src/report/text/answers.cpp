@@ -249,19 +249,20 @@ static_assert(std::size(words_of_keys) == static_cast<std::size_t>(AnswerKey::en
 const Words& words_of(AnswerKey key) { return words_of_keys[static_cast<std::size_t>(key)]; }
 
 // In the order of WhyNot.
-constexpr const char* words_of_reasons[] = {"striker and beam never touched",
-                                            "striker and beam are in contact at the end",
-                                            "striker and beam approach each other at the end",
-                                            "striker and beam met at rest",
-                                            "few sub-impacts are uncertain",
-                                            "no contact without end is found",
-                                            "it does not move or bend",
-                                            "it stays elastic",
-                                            "sections have yielded",
-                                            "the beam has no yield stress",
-                                            "the contact law does not have it",
-                                            "it is not computed with output.shapes = 0",
-                                            "the beam has no supports"};
+constexpr const char* words_of_reasons[] = {
+    "striker and beam never touched",
+    "striker and beam are in contact at the end",
+    "striker and beam approach each other at the end",
+    "striker and beam met at rest",
+    "few sub-impacts are uncertain",
+    "no contact without end is found",
+    "it does not move or bend",
+    "it stays elastic",
+    "sections have yielded",
+    "the beam has no yield stress",
+    "the contact law does not have it",
+    "it is not computed: the run failed, or output.shapes = 0",
+    "the beam has no supports"};
 
 std::string label_of(const Result& result, const Answer& answer) {
   const std::string label = words_of(answer.key).label;
@@ -299,7 +300,7 @@ void add_numbers(const Case& input, const Result& result, Answer& answer) {
   } else {
     answer.text += place_of(input, result, answer);
     if (answer.key == AnswerKey::contact_end && !result.contact_over) answer.text += ", so far";
-    answer.error_text = answer.error ? error : "not known";
+    answer.error_text = error.empty() ? "not known" : error;
   }
   const auto rough = [&](double x) { return with_digits(unit.per_si * x, 2); };
   double at_least = 0.0;
@@ -339,6 +340,7 @@ void add_counts(const Result& result, Answer& answer) {
 
 // ... with its total error: "14 +- 3 kN".
 std::string with_total_error(const Answer& answer) {
+  if (!answer.value) return "an amount that is not known";
   const Measure& measure = words_of(answer.key).measure;
   if (answer.error && answer.body_error) {
     const Total total{*answer.value, std::hypot(*answer.error, *answer.body_error)};
