@@ -306,6 +306,11 @@ void check_bodies(const Case& input) {
                 "\"rigid\", or hold the ends of a beam that bends with beam.ends"},
                {beam.fixed && beam.foundation > 0.0, "beam.foundation", of_wall},
                {beam.fixed && beam.is_sprung(), "beam.springs", of_wall}});
+  const bool rests = input.strikes > 1 && input.at_rest && may_yield(input);
+  check_rules({{beam.stretches() && rests, "strike.rest",
+                "is true, the default of repeated strikes, but the shape in which a beam with "
+                "beam.axial = \"held\" that may yield comes to rest is not computed; set it to "
+                "false, or beam.axial to \"free\""}});
 }
 
 // In a symmetric scene, first derivatives do not show the effect of a strike off the centre.

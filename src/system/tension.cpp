@@ -21,10 +21,21 @@ Tension::Response Tension::response(double square) const {
   return {tension, flow, flow == 0.0 ? 0.0 : limit_ * std::abs(flow)};
 }
 
-void Tension::add_to(std::span<double> forces, std::span<const double> unknowns) {
+void Tension::add_to(std::span<double> forces, std::span<const double> unknowns) const {
   form_.multiply(unknowns, product_);
   const double tension = response(dot(product_.data(), unknowns.data(), product_.size())).tension;
   for (std::size_t i = 0; i < product_.size(); ++i) forces[i] -= tension * product_[i];
+}
+
+void Tension::add_rate_to(std::span<double> forces, std::span<const double> unknowns,
+                          std::span<const double> velocities) const {
+  form_.multiply(unknowns, product_);
+  const Response now = response(dot(product_.data(), unknowns.data(), product_.size()));
+  const double rate = dot(product_.data(), velocities.data(), product_.size());
+  const double change = now.flow == 0.0 ? stiffness_ * rate : 0.0;
+  for (std::size_t i = 0; i < product_.size(); ++i) forces[i] -= change * product_[i];
+  form_.multiply(velocities, product_);
+  for (std::size_t i = 0; i < product_.size(); ++i) forces[i] -= now.tension * product_[i];
 }
 
 Tension::Energies Tension::energies(std::span<const double> unknowns) const {

@@ -29,8 +29,10 @@ class Tension {
   double at(std::span<const double> unknowns) const {
     return response(form_.quadratic_form(unknowns)).tension;
   }
-  /// forces -= N G q.
-  void add_to(std::span<double> forces, std::span<const double> unknowns);
+  /// forces -= N G q, or its rate of change.
+  void add_to(std::span<double> forces, std::span<const double> unknowns) const;
+  void add_rate_to(std::span<double> forces, std::span<const double> unknowns,
+                   std::span<const double> velocities) const;
 
   struct Energies {
     double elastic, plastic;  ///< J
@@ -49,8 +51,8 @@ class Tension {
   BandedMatrix form_;
   double stiffness_;  // E A/l, N/m
   double limit_;
-  double plastic_ = 0.0, work_ = 0.0;  // e_p, m; plastic work, J
-  std::vector<double> product_;        // G q
+  double plastic_ = 0.0, work_ = 0.0;    // e_p, m; plastic work, J
+  mutable std::vector<double> product_;  // G q
 };
 
 }  // namespace subimpact

@@ -57,8 +57,8 @@ SectionCorrector::SectionCorrector(const StruckBeam& beam, double tolerance)
       influence_(beam.mesh(), beam.mass_solver()),
       finder_(beam.sections(), influence_),
       end_(beam.sections().size()),
-      start_loads_(beam.mesh(), !beam.loads().is_empty()),
-      end_loads_(beam.mesh(), !beam.loads().is_empty()),
+      start_loads_(beam.mesh(), !beam.loads().is_empty() || beam.tension() != nullptr),
+      end_loads_(beam.mesh(), !beam.loads().is_empty() || beam.tension() != nullptr),
       curvatures_(beam.sections().size()),
       moments_(beam.sections().size()),
       forces_(beam.mesh().n_unknowns()) {}
@@ -130,6 +130,11 @@ void SectionCorrector::read_loads(double t, const State& y, const SectionMotion&
   std::fill(loads.shear_force_rates.begin(), loads.shear_force_rates.end(), 0.0);
   beam_.mesh().add_shear_forces(beam_.beam_positions(y), loads.shear_forces);
   beam_.mesh().add_shear_forces(beam_.beam_velocities(y), loads.shear_force_rates);
+  if (const Tension* tension = beam_.tension()) {
+    tension->add_to(loads.shear_forces, beam_.beam_positions(y));
+    tension->add_rate_to(loads.shear_force_rates, beam_.beam_positions(y),
+                         beam_.beam_velocities(y));
+  }
   if (beam_.loads().is_empty()) return;
   beam_.loads().add_to(loads.shear_forces, t);
   for (std::size_t i = 0; i < loads.shear_force_rates.size(); ++i) {

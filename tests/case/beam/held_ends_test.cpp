@@ -302,6 +302,9 @@ TEST(HeldEnds, AreRefusedWhereNoTensionCanBe) {
 
 TEST(HeldEnds, AreRefusedAtRestAfterAStrikeThatYields) {
   Case input = strike(pinned, SectionKind::exact);
+  input.strikes = 2;
+  expect_refused(input, "strike.rest", "beam.axial", "false");
+  input.strikes = 1;
   input.end_time = 0.3e-3;
   input.parts.start = completed(input).end_state;
   input.at_rest = true;
