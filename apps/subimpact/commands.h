@@ -15,7 +15,6 @@
 #include "progress.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/output_directory.h"
-#include "subimpact/io/read_results.h"
 #include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact::app {

@@ -15,7 +15,6 @@
 #include "io/printable.h"
 #include "numerics/processor.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 
 namespace {

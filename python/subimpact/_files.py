@@ -89,6 +89,11 @@ class Files:
         return files
 
     @property
+    def again(self) -> str:
+        """What to do about files that are damaged."""
+        return "run the sweep again; it keeps the runs in its store" if "runs.csv" in self.listed else _AGAIN
+
+    @property
     def holds_sweep(self) -> bool:
         return (self.directory / "runs.csv").exists() and not (self.directory / "summary.json").exists()
 
@@ -109,7 +114,7 @@ class Files:
                 return file
             file.close()
         raise ResultsError(f"{path}: is not the file that the run wrote (its length or checksum differs from {MANIFEST}): "
-                           f"it was changed or cut short since, or a run is replacing it; read it again, or {_AGAIN}")
+                           f"it was changed or cut short since, or a run is replacing it; read it again, or {self.again}")
 
     def read(self, name: str) -> bytes:
         with self.open(name) as file:

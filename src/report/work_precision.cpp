@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 
 #include "case/counted.h"
+#include "case/refuse.h"
 #include "io/directory/listed_files.h"
-#include "io/records/csv_reader.h"
 #include "numerics/units.h"
 #include "report/study_columns.h"
 #include "subimpact/io/case_file.h"
@@ -114,6 +114,28 @@ void complete(LoggedPoint& row) {
       UnmatchedSubImpact{*row.unmatched_start, *row.unmatched_duration, {}};
 }
 
+// The rows of a file of these columns.
+std::vector<LoggedPoint> rows_of(std::istream& file, const std::string& path) {
+  const Columns<LoggedPoint> columns = columns_in_file(point_columns());
+  std::string line;
+  std::getline(file, line);
+  bool is_read = line + '\n' == csv_heading(columns);
+  std::vector<LoggedPoint> rows;
+  while (is_read && std::getline(file, line)) {
+    std::istringstream cells(line + ',');
+    LoggedPoint& row = rows.emplace_back();
+    for (const Column<LoggedPoint>& column : columns) {
+      std::string cell;
+      is_read = is_read && std::getline(cells, cell, ',') && column.read(cell, row);
+    }
+  }
+  if (is_read) return rows;
+  fail<ResultsError>(
+      "{}: holds no points of this version of the program; choose another directory with --out, or "
+      "remove the file",
+      path);
+}
+
 std::string setting_text(const Trial& point) {
   return fmt::format("{} at {}: {}, largest error {:.1e} us", point.setting.method,
                      point.setting.text(), duration_text(point.seconds), point.errors.maximum * us);
@@ -168,14 +190,13 @@ std::string recommendation_text(const std::vector<Recommendation>& recommendatio
 
 PointLog::PointLog(OutputDirectory& directory, const std::vector<std::string>& cases)
     : directory_(directory), text_(csv_heading(columns_in_file(point_columns()))) {
-  const ListedFiles files(directory.path());
-  if (!files.manifest() || !files.manifest()->files.contains(file_name)) return;
+  const std::optional<Manifest> manifest = read_manifest(directory.path());
+  if (!manifest || !manifest->files.contains(file_name)) return;
   const std::string path = (directory.path() / file_name).string();
-  std::ifstream file = files.open(file_name);
-  CsvReader csv(file, path, "choose another directory with --out, or remove the file");
-  for_each_row(csv, columns_in_file(point_columns()), [&](LoggedPoint row) {
+  std::istringstream file(listed_text(directory.path(), file_name));
+  for (LoggedPoint& row : rows_of(file, path)) {
     // What was left out for its time may be run now.
-    if (row.point.verdict == Verdict::not_run) return;
+    if (row.point.verdict == Verdict::not_run) continue;
     if (std::find(cases.begin(), cases.end(), row.id) == cases.end()) {
       throw OutputError(
           fmt::format("{}: holds points of another case (or another version of the program), which "
@@ -186,7 +207,7 @@ PointLog::PointLog(OutputDirectory& directory, const std::vector<std::string>& c
     complete(row);
     append_row(text_, columns_in_file(point_columns()), row);
     known_.emplace_back(row.id, row.point);
-  });
+  }
 }
 
 std::optional<Trial> PointLog::known(const std::string& case_id, const Setting& setting) const {

@@ -1,5 +1,4 @@
 #include "process.h"
-#include "reseal.h"
 
 namespace subimpact {
 namespace {
@@ -104,44 +103,6 @@ TEST_F(ACaseFile, OfManyUnknownKeysIsRefusedAtOnce) {
   directory.write("keys.toml", text + std::string(100000, 'k') + "=1\n");
   const Finished finished = run_in(directory, {"explain", "keys.toml"}, 2);
   EXPECT_LT(finished.errors.size(), 100000u);
-}
-
-// --- results ------------------------------------------------------------------------------------
-
-TEST(ImpossibleResults, AreRefusedWithFileLineAndValue) {
-  const TemporaryDirectory directory;
-  make_run(directory, "run");
-  struct Change {
-    const char* file;
-    std::string from, to, message;
-  };
-  std::string deep = "{\"a\": ";
-  deep.append(1'000'000, '[');
-  const std::string whole = directory.read("run/summary.json");
-  const Change changes[] = {
-      {"events.csv", "\n1,1,1,", "\n1,0,1,", "events.csv:2: zone is 0; allowed: "},
-      {"events.csv", "\n1,1,1,", "\n1,-7,1,", "events.csv:2: zone is -7; allowed: "},
-      {"events.csv", "\n1,1,1,", "\n1,1,2147483647,", "events.csv:2: subzone is 2147483647; "},
-      {"events.csv", "\n1,1,1,0,", "\n1,1,1,nan,", "events.csv:2: start_s is \"nan\"; allowed: "},
-      {"events.csv", "\n1,1,1,0,,", "\n1,1,1,2,1,", "events.csv:2: end_s is 1; "},
-      {"history.csv", "\n0,", "\n5,", "history.csv:3: time_s is 0; allowed: "},
-      {"history.csv", "\n0,", "\n-1,", "history.csv:2: time_s is -1; allowed: "},
-      {"sections.csv", "\n0,", "\n0,inf,1,1,1,1\n0,", "sections.csv:2: position_m is \"inf\"; "},
-      {"transitions.csv", "\n0,", "\ninf,", "transitions.csv:2: time_s is \"inf\"; allowed: "},
-      {"transitions.csv", "\n0,contact_begins,,", "\n0,contact_begins,-1,",
-       "transitions.csv:2: section is \"-1\"; "},
-      {"summary.json", "\"force_N\": ", "\"force_N\": null, \"x\": ", "maxima.force_N is inf"},
-      {"summary.json", whole, deep, "is nested deeper than 16"},
-      {"summary.json", "N_per_m1.5", "N_per_mx", "summary.json: is not the summary of a run"},
-  };
-  for (const Change& change : changes) {
-    const fs::path file = directory.path / "run" / change.file;
-    const std::string before = read_file(file);
-    directory.write(std::string("run/") + change.file, replaced(before, change.from, change.to));
-    reseal(directory.path / "run");  // a checksum would refuse each change first
-    expect_in(run_in(directory, {"report", "run"}, 2).errors, change.message);
-    directory.write(std::string("run/") + change.file, before);
-  }
 }
 
 // --- numbers ------------------------------------------------------------------------------------

@@ -40,7 +40,8 @@ Finished run_here(const TemporaryDirectory& directory, const Words& settings = {
 TEST_F(ARun, WritesItsFilesAndPrintsTheTable) {
   const Finished finished = run_here(directory);
   EXPECT_EQ(finished.errors, "");  // progress is for terminals
-  expect_in(unwrapped(finished.output), "1 sub-impact in 20 us, ", "peak force", "zone 1", "(open)");
+  expect_in(unwrapped(finished.output), "1 sub-impact in 20 us, ", "peak force", "zone 1",
+            "(open)");
   const auto summary = summary_of(directory);
   EXPECT_EQ(summary.at("outcome").at("kind"), "completed");
   EXPECT_EQ(summary.at("case").at("time").at("end"), 2e-5);
@@ -410,10 +411,11 @@ TEST(RepeatedStrikes, OfTheProgramHaveARowEachInATableAndOnTheScreen) {
                                {"--out", "here"}))
                 .output,
             "strike sub-impacts");
-  const Result result = read_results(here.path / "here").result;
-  ASSERT_EQ(result.strikes.size(), 3U);
-  EXPECT_EQ(result.strikes.back().sub_impacts, result.sub_impacts.size());
-  EXPECT_EQ(result.strikes.back().dent, result.sub_impacts.back().residual_indentation);
+  const std::vector<TableRow> strikes = table_in(here.path / "here/strikes.csv"),
+                              hits = table_in(here.path / "here/events.csv");
+  ASSERT_EQ(strikes.size(), 3U);
+  EXPECT_EQ(strikes.back().at("sub_impacts"), std::to_string(hits.size()));
+  EXPECT_EQ(strikes.back().at("dent_m"), hits.back().at("residual_indentation_m"));
   expect_in(run_in(here, paper("compare", {"repeat.strikes=3"}, {"--methods", "erk"}), 2).errors,
             "only `subimpact run` strikes more than once");
 }

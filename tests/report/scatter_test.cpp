@@ -9,7 +9,6 @@
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
 #include "subimpact/report/text.h"
@@ -103,18 +102,6 @@ Result predicted() {
   return result;
 }
 
-TEST(Predictability, ReadsBackFromTheFilesOfARun) {
-  const TemporaryDirectory directory;
-  const Case input = read("[scatter]\nstriker.velocity = 0.01\n").value;
-  const Result result = predicted();
-  write_results(directory.path, input, result);
-  const FinishedRun run = read_results(directory.path);
-  EXPECT_EQ(run.input.scatter, input.scatter);
-  EXPECT_EQ(summary_json(run.input, run.result), summary_json(input, result));
-  EXPECT_EQ(csv_of<SubImpact>(run.result), csv_of<SubImpact>(result));
-  EXPECT_EQ(run.result.sub_impacts[0].end_scatter, 1.63e-6);
-}
-
 TEST(Predictability, IsInTheSummaryOfARunWithScatterAlone) {
   const Case input = read("").value;
   const auto summary = nlohmann::json::parse(summary_json(input, predicted()));
@@ -130,8 +117,7 @@ TEST(Predictability, IsPrintedWithTheReasonWhereItEnds) {
   expect_in(predictability_words(predicted()), "1 of 3 sub-impacts, up to 333.3 us");
   Result result = predicted();
   make_answers(read("").value, result);
-  expect_in(run_summary(read("").value, result), "predictable", "scatter: force",
-            "900 +- 12 N");
+  expect_in(run_summary(read("").value, result), "predictable", "scatter: force", "900 +- 12 N");
 }
 
 TEST(Samples, ArePrintedWithTheirNumberAndMeshAndWithoutWhatThereIsNot) {

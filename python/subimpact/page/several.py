@@ -73,10 +73,9 @@ def sweep_page(files: Files) -> str:
     files.open("sub_impacts.csv").close()
     for name in ("run", "outcome"):
         if rows and name not in rows[0]:
-            raise ResultsError(f"{path}: has no column {name}; its columns are {', '.join(rows[0])}; run the sweep again; it keeps the "
-                               "runs in its store")
+            raise ResultsError(f"{path}: has no column {name}; its columns are {', '.join(rows[0])}; run the sweep again")
     if not rows:
-        raise ResultsError(f"{path}: has no run yet; run the sweep again; it keeps the runs in its store")
+        raise ResultsError(f"{path}: has no run yet; run the sweep again")
     names = list(rows[0])
     columns = arrays_of({name: [row[name] for row in rows] for name in names})
     all_keys, known = names[names.index("run") + 1 : names.index("outcome")], keys()

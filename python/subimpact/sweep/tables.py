@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import IO, Any
 
 from .. import _core
-from .._errors import OutputError, StoreError
+from .._errors import OutputError, ResultsError, StoreError
+from .._files import Files
 from .._text import one_line
 from .plan import Plan
 from .store import KIND, SECONDS_OF_THE_DYING, Store
@@ -20,7 +19,6 @@ RUNS = "runs.csv"
 SUB_IMPACTS = "sub_impacts.csv"
 CASE = "base.toml"
 HDF5 = "sweep.h5"
-_MANIFEST = "manifest.json"
 
 
 def write_tables(plan: Plan, identities: Mapping[int, str], store: Store) -> Counter[str]:
@@ -79,14 +77,16 @@ def write_hdf5(directory: Path) -> Path:
     OutputError."""
     import h5py
 
-    identity = _manifest(directory)["identity"]
+    identity = _tables(directory)[0]
     output = _core.OutputDirectory(str(directory), KIND, SECONDS_OF_THE_DYING, identity)
     try:
-        _check_tables(directory, identity)
+        now, tables = _tables(directory)
+        if now != identity:
+            raise StoreError(f"{directory}: another sweep has written its tables here meanwhile; write those")
         try:
             with h5py.File(Path(output.staging) / HDF5, "x") as file:
-                for name in (RUNS, SUB_IMPACTS):
-                    _copy(directory / name, file.create_group(name.removesuffix(".csv")))
+                for name, rows in tables.items():
+                    _copy(rows, file.create_group(name.removesuffix(".csv")))
         except (OSError, RuntimeError) as error:
             raise _not_written(directory, error) from None
         output.commit()
@@ -95,41 +95,23 @@ def write_hdf5(directory: Path) -> Path:
     return directory / HDF5
 
 
-def _copy(table: Path, group: Any) -> None:
+def _copy(rows: list[list[str]], group: Any) -> None:
     import h5py
 
-    with open(table, encoding="utf-8", newline="\n") as file:
-        heading = next(file).rstrip("\n").split(",")
-        rows = [line.rstrip("\n").split(",") for line in file]
-    for column, label in enumerate(heading):
-        cells = [row[column] for row in rows]
+    for column, label in enumerate(rows[0]):
+        cells = [row[column] for row in rows[1:]]
         try:
             group[label] = [float(text or "nan") for text in cells]
         except ValueError:
             group.create_dataset(label, data=cells, dtype=h5py.string_dtype())
 
 
-def _manifest(directory: Path) -> dict[str, Any]:
-    path = directory / _MANIFEST
+def _tables(directory: Path) -> tuple[str, dict[str, list[list[str]]]]:
+    """The identity of a sweep, and the rows of its tables as it wrote them. Raises StoreError."""
     try:
-        manifest: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        if isinstance(manifest["identity"], str) and manifest["kind"] == KIND:
-            return manifest
-    except (OSError, ValueError, TypeError, KeyError):
-        pass
-    raise StoreError(f"{path}: is no list of the tables of a sweep; {_AGAIN}")
-
-
-_AGAIN = "run the sweep again; it keeps the runs in its store"
-
-
-def _check_tables(directory: Path, identity: str) -> None:
-    manifest = _manifest(directory)
-    for name in (RUNS, SUB_IMPACTS):
-        try:
-            content = (directory / name).read_bytes()
-            is_whole = manifest["files"][name]["sha256"] == hashlib.sha256(content).hexdigest()
-        except (OSError, TypeError, KeyError):
-            is_whole = False
-        if not is_whole or manifest["identity"] != identity:
-            raise StoreError(f"{directory / name}: was changed since the sweep wrote it; {_AGAIN}")
+        files = Files(directory)
+        if RUNS not in files.listed:
+            raise ResultsError(f"{directory}: has no list of the tables of a sweep; {files.again}")
+        return files.identity, {name: list(files.lines(name)) for name in (RUNS, SUB_IMPACTS)}
+    except ResultsError as error:
+        raise StoreError(str(error)) from None

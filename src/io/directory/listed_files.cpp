@@ -5,12 +5,13 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <system_error>
 
 #include "io/records/record.h"
-#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {
@@ -47,32 +48,6 @@ std::map<std::string, Fingerprint> fingerprints_from(const Json& json) {
 [[noreturn]] void refuse_to_read(const fs::path& path, const char* cause) {
   fail<ResultsError>("{}: cannot be read ({}); give the output directory of `subimpact run`",
                      path.string(), cause);
-}
-
-// A pipe or a device may never end.
-void check_is_regular(const fs::path& path) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    refuse_to_read(path, "it is no regular file");
-  }
-}
-
-std::ifstream open_file(const fs::path& path) {
-  check_is_regular(path);
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse_to_read(path, std::strerror(errno));
-  return file;
-}
-
-std::string text_of(std::istream& file, const fs::path& path) {
-  std::ostringstream text;
-  errno = 0;
-  if (!(text << file.rdbuf())) {
-    refuse_to_read(path, errno != 0 ? std::strerror(errno) : "it is empty");
-  }
-  return std::move(text).str();
 }
 
 }  // namespace
@@ -147,44 +122,37 @@ std::string to_json(const Manifest& manifest) {
 }
 
 std::string read_whole_file(const fs::path& path) {
-  std::ifstream file = open_file(path);
-  return text_of(file, path);
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {  // a pipe or a device may never end
+    refuse_to_read(path, "it is no regular file");
+  }
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  const std::istreambuf_iterator<char> begin(file), end;
+  std::string text(begin, end);
+  if (!file) refuse_to_read(path, std::strerror(errno));
+  return text;
 }
 
-ListedFiles::ListedFiles(fs::path directory)
-    : directory_(std::move(directory)), manifest_(read_manifest(directory_)) {}
-
-bool ListedFiles::are_listed() const {
-  return manifest_ && manifest_->kind != "figures" && manifest_->kind != "report";
-}
-
-std::ifstream ListedFiles::open(const std::string& name) const {
-  const fs::path path = directory_ / name;
-  if (!are_listed()) return open_file(path);
-  const auto listed = manifest_->files.find(name);
-  if (listed == manifest_->files.end()) {
-    const bool is_sweep = manifest_->files.contains("runs.csv");
-    fail<ResultsError>("{}: is not among the results of `subimpact {}` that {} lists{}",
-                       path.string(), manifest_->kind, manifest_name,
-                       is_sweep ? "; a row per run is in runs.csv, for pandas.read_csv" : "");
+std::string listed_text(const fs::path& directory, const std::string& name) {
+  const fs::path path = directory / name;
+  const std::optional<Manifest> manifest = read_manifest(directory);
+  if (!manifest || !manifest->files.contains(name)) {
+    fail<ResultsError>("{}: is not among the results that {} lists", path.string(), manifest_name);
   }
   // A file that is not yet in its place waits under the name of its commit.
-  for (const fs::path& place : {path, staging_of(directory_, manifest_->commit) / name, path}) {
-    check_is_regular(place);
-    errno = 0;
-    std::ifstream file(place, std::ios::binary);
-    if (!file && errno == EACCES) refuse_to_read(place, std::strerror(errno));
-    if (file && fingerprint_of(file) == listed->second) return file;
+  for (const fs::path& place : {path, staging_of(directory, manifest->commit) / name, path}) {
+    std::error_code ignored;
+    if (!fs::exists(place, ignored)) continue;
+    std::string text = read_whole_file(place);
+    std::istringstream stream(text);
+    if (fingerprint_of(stream) == manifest->files.at(name)) return text;
   }
   fail<ResultsError>(
       "{}: is not the file that the run wrote (its length or checksum differs from {}): it was "
       "changed or cut short since, or a run is replacing it; read it again, or run the case again",
       path.string(), manifest_name);
-}
-
-std::string ListedFiles::text(const std::string& name) const {
-  std::ifstream file = open(name);
-  return text_of(file, directory_ / name);
 }
 
 }  // namespace subimpact

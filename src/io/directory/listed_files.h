@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
+#include <istream>
 #include <map>
 #include <optional>
 #include <string>
@@ -52,25 +52,7 @@ void write_file(const std::filesystem::path& path, const std::string& content);
 /// Writes the whole content to an open file. Returns 0, or the number of the error.
 int write_all(int file, std::string_view content);
 
-/// The files of a directory as its manifest lists them, to be read.
-class ListedFiles {
- public:
-  /// Throws ResultsError.
-  explicit ListedFiles(std::filesystem::path directory);
-
-  const std::optional<Manifest>& manifest() const { return manifest_; }
-  /// Whether the manifest lists tables. A directory without a manifest, or with one of figures or
-  /// pages alone, is of an older version of this program.
-  bool are_listed() const;
-
-  /// Opens a file whose length and checksum are those of the manifest or, if there is no list of
-  /// tables, the file as it is. Throws ResultsError.
-  std::ifstream open(const std::string& name) const;
-  std::string text(const std::string& name) const;
-
- private:
-  std::filesystem::path directory_;
-  std::optional<Manifest> manifest_;
-};
+/// The text of a file whose length and checksum are those of the manifest. Throws ResultsError.
+std::string listed_text(const std::filesystem::path& directory, const std::string& name);
 
 }  // namespace subimpact

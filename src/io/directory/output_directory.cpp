@@ -15,7 +15,6 @@
 
 #include "case/refuse.h"
 #include "io/directory/listed_files.h"
-#include "subimpact/io/read_results.h"
 
 namespace subimpact {
 namespace {

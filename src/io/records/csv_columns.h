@@ -106,22 +106,10 @@ inline bool read_cell(std::string_view cell, std::string& words) {
   words = cell;
   return true;
 }
-inline bool read_cell(std::string_view cell, Reason& reason) {
-  reason = {Reason::Kind::in_words, std::string(cell)};
-  return true;
-}
 template <class Value>
 bool read_cell(std::string_view cell, std::optional<Value>& value) {
   value.reset();
   return cell.empty() || read_cell(cell, value.emplace());
-}
-template <class Enum>
-requires std::is_enum_v<Enum>
-bool read_cell(std::string_view cell, Enum& value) {
-  const auto names = names_of(value);
-  const auto found = std::ranges::find(names, cell, [](const auto& named) { return named.name; });
-  if (found != names.end()) value = found->kind;
-  return found != names.end();
 }
 
 template <class Row>
@@ -143,28 +131,23 @@ struct Column {
     type = cell_type<std::remove_cvref_t<decltype(held(std::declval<const Row&>(), 0))>>;
     if constexpr (std::is_same_v<Value, double Row::*>) member = value;
     cell = [held](const Row& row, std::size_t index) { return to_cell(held(row, index)); };
-    if constexpr (std::is_invocable_v<Value, Row&>) {
-      if constexpr (std::is_lvalue_reference_v<std::invoke_result_t<Value, Row&>>) {
-        using Held = std::invoke_result_t<Value, Row&>;
-        if (std::is_enum_v<std::remove_reference_t<Held>>) allowed = "one of its names";
-        read = [value](std::string_view cell, Row& row) {
-          return read_cell(cell, std::invoke(value, row));
-        };
-      }
+    if constexpr (requires(Row & row) { read_cell(std::string_view(), std::invoke(value, row)); }) {
+      read = [value](std::string_view text, Row& row) {
+        return read_cell(text, std::invoke(value, row));
+      };
     }
   }
 
   template <class Value>
   Column(std::string name_with_unit, Value value) : Column(std::move(name_with_unit), "", value) {}
 
-  std::string name;                         ///< with its unit
-  std::string meaning;                      ///< for the documentation
-  const char* allowed = "a finite number";  ///< for messages
+  std::string name;     ///< with its unit
+  std::string meaning;  ///< for the documentation
   CellType type = CellType::real;
   int digits = 17;                ///< of real numbers in the file
   double Row::*member = nullptr;  ///< that the column holds, if it is a number that is always there
   std::function<Cell(const Row&, std::size_t index)> cell;
-  std::function<bool(std::string_view cell, Row&)> read;  ///< none: it follows from other columns
+  std::function<bool(std::string_view cell, Row&)> read;  ///< none: it is never read
 };
 
 template <class Row>

@@ -1,40 +1,9 @@
 #include "io/records/run_record.h"
 
-#include "case/refuse.h"
 #include "io/records/answer_record.h"
-
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
-
-template <auto... kinds>
-static auto names_of_kinds() {
-  using Row = Named<std::common_type_t<decltype(kinds)...>>;
-  static const Row names[] = {{kinds, to_string(kinds).data(), ""}...};
-  return std::span<const Row>(names);
-}
-
-std::span<const Named<OutcomeKind>> names_of(OutcomeKind) {
-  using enum OutcomeKind;
-  return names_of_kinds<completed, stopped, inaccurate, unstable, chattering, solver_failed,
-                        left_validity>();
-}
-
-std::span<const Named<NearMissKind>> names_of(NearMissKind) {
-  return names_of_kinds<NearMissKind::opening, NearMissKind::closing>();
-}
-
-std::span<const Named<ErrorSource>> names_of(ErrorSource) {
-  using enum ErrorSource;
-  return names_of_kinds<layers, mesh, mesh_and_time, time>();
-}
-
-std::span<const Named<EventKind>> names_of(EventKind) {
-  using enum EventKind;
-  return names_of_kinds<contact_begins, contact_yields, contact_unloads, contact_ends,
-                        section_reverses>();
-}
-
 namespace {
 
 // The beam at rest after the run, where shapes were computed and no check failed.
@@ -59,13 +28,13 @@ const Record<ZoneSummary> zone_record = {
 
 const Record<NearMiss> near_miss_record = {
     {"kind", "opening: a contact that nearly opened; closing: the reverse", &NearMiss::kind},
-    {"time_s", "instant of the smallest margin", &NearMiss::time, Form::from_zero},
-    {"margin_m", "distance between the indentation and the residual one", &NearMiss::margin, Form::above_zero}};
+    {"time_s", "instant of the smallest margin", &NearMiss::time},
+    {"margin_m", "distance between the indentation and the residual one", &NearMiss::margin}};
 
 const Record<ToleranceOutcome> tolerance_record = {
-    {"event_times_s", "error of event times that was asked for", &ToleranceOutcome::asked, Form::finite},
+    {"event_times_s", "error of event times that was asked for", &ToleranceOutcome::asked},
     {"reached_error_s", "largest error of a certain event time; null: not known", &ToleranceOutcome::reached},
-    {"horizon_s", "up to which event times are certain and within that error", &ToleranceOutcome::horizon, Form::finite},
+    {"horizon_s", "up to which event times are certain and within that error", &ToleranceOutcome::horizon},
     {"reason", "why the horizon comes before the end", &ToleranceOutcome::reason},
     {"obstacle", "why no finer mesh was run", &ToleranceOutcome::obstacle},
     {"key_to_free", "key of the case that prevents it and could be freed", &ToleranceOutcome::key, Form::empty_is_null}};
@@ -122,18 +91,18 @@ const Record<Predictability::Sampled> sampled_record = {
     {"nominal", "of the case itself, on the mesh of the samples", &Predictability::Sampled::nominal}};
 
 const Record<Predictability> predictability_record = {
-    {"horizon_s", "up to which the strike can be predicted", &Predictability::horizon, Form::finite},
+    {"horizon_s", "up to which the strike can be predicted", &Predictability::horizon},
     {"first_unpredictable_index", "number, from 1, of the first sub-impact that cannot be", &Predictability::first_unpredictable, Form::from_one},
     {"reason", "why it cannot", &Predictability::reason, Form::empty_is_null},
-    {"max_time_scatter_s", "largest standard deviation up to the horizon", &Predictability::largest_scatter, Form::finite},
+    {"max_time_scatter_s", "largest standard deviation up to the horizon", &Predictability::largest_scatter},
     {"zones", "", &Predictability::zones, zone_scatter_record},
     {"striker_velocity_scatter_m_per_s", "standard deviation of the velocity at the end", &Predictability::striker_velocity_scatter},
     {"samples", "of the numbers that scatter; each is a run", &Predictability::n_samples}, {"samples_mesh", "of these runs", &Predictability::samples_mesh},
     {"totals", "over the samples", &Predictability::totals, sampled_record}};
 
 const Record<ClosestApproach> approach_record = {
-    {"time_s", "when", &ClosestApproach::time, Form::from_zero},
-    {"gap_m", "smallest gap", &ClosestApproach::gap, Form::above_zero},
+    {"time_s", "when", &ClosestApproach::time},
+    {"gap_m", "smallest gap", &ClosestApproach::gap},
     {"error_m", "error of the gap", &ClosestApproach::error}};
 
 const Record<PlasticZone> plastic_zone_record = {
@@ -146,10 +115,10 @@ const Record<NextStep> next_step_record = {
     {"gain", "what it shows, and how long it takes", &NextStep::gain}};
 
 const Record<EnvelopeRow::Range> reaction_record = {
-    {"least_N", "smallest force of the support on the beam, positive along the strike", [](auto& r) -> auto& { return r.smallest.value; }, Form::finite},
-    {"least_time_s", "when", [](auto& r) -> auto& { return r.smallest.time; }, Form::finite},
-    {"largest_N", "largest one", [](auto& r) -> auto& { return r.largest.value; }, Form::finite},
-    {"largest_time_s", "when", [](auto& r) -> auto& { return r.largest.time; }, Form::finite}};
+    {"least_N", "smallest force of the support on the beam, positive along the strike", [](const auto& r) -> auto& { return r.smallest.value; }},
+    {"least_time_s", "when", [](const auto& r) -> auto& { return r.smallest.time; }},
+    {"largest_N", "largest one", [](const auto& r) -> auto& { return r.largest.value; }},
+    {"largest_time_s", "when", [](const auto& r) -> auto& { return r.largest.time; }}};
 
 const Record<BeamAtRest> rest_record = {
     {"largest_permanent_set_m", "largest displacement of the beam at rest, against its supports; of a free one against the chord", &BeamAtRest::largest_set},
@@ -160,7 +129,7 @@ const Record<BeamAtRest> rest_record = {
 // The member of a result, or of what it holds, that a path of pointers leads to.
 template <class... Members>
 auto result(Members... path) {
-  return [=](auto& run) -> auto& { return (*run.result.*....*path); };
+  return [=](const auto& run) -> auto& { return (*run.result.*....*path); };
 }
 
 template <class Member>
@@ -175,12 +144,6 @@ Json json_of_setting(const KeyValue& value) {
   return json_of(value);
 }
 
-KeyValue setting_of(const CaseKey& key, const Json& json) {
-  if (json == "inf") return std::numeric_limits<double>::infinity();
-  if (const auto value = key_value_of(key, json)) return *value;
-  fail<ResultsError>("{} is {}, which no key can hold", key.name, json.dump());
-}
-
 Json case_json(const DescribedRun& run) {
   Json json;
   for (const CaseKey& key : case_keys()) {
@@ -188,13 +151,6 @@ Json case_json(const DescribedRun& run) {
     place_in(json, key.name) = value ? json_of_setting(*value) : Json(nullptr);
   }
   return json;
-}
-
-void read_case(const Json& json, DescribedRun& run) {
-  for (const CaseKey& key : case_keys()) {
-    const Json& value = found_in(json, key.name);
-    if (!value.is_null()) assign(*run.input, key, setting_of(key, value));
-  }
 }
 
 Json case_units(const DescribedRun&) {
@@ -211,12 +167,6 @@ Json libraries_json(const DescribedRun& run) {
   return json;
 }
 
-void read_libraries(const Json& json, DescribedRun& run) {
-  for (const auto& [name, version] : json.items()) {
-    run.libraries.emplace_back(name, version.get<std::string>());
-  }
-}
-
 // "contact_stiffness_N_per_m1.5": the exponent follows the unit, if it is not 1.
 Entry<DescribedRun> contact_stiffness_entry() {
   static constexpr const char* start = "contact_stiffness_N_per_m";
@@ -228,16 +178,6 @@ Entry<DescribedRun> contact_stiffness_entry() {
     const std::string power =
         used.contact_exponent == 1.0 ? "" : fmt::format("{:.6g}", used.contact_exponent);
     object["used"][start + power] = json_of(used.contact_stiffness, Form::plain);
-  };
-  entry.read = [](const Json& object, DescribedRun& run) {
-    ResolvedSettings& used = run.result->used;
-    for (const auto& [name, value] : object.at("used").items()) {
-      if (!name.starts_with(start)) continue;
-      const std::string exponent = name.substr(std::string_view(start).size());
-      used.contact_exponent = exponent.empty() ? 1.0 : std::stod(exponent);
-      return assign(used.contact_stiffness, value, name, Form::plain);
-    }
-    object.at("used").at(start);  // throws, naming the missing field
   };
   return entry;
 }
@@ -254,8 +194,11 @@ int count_subzones(const DescribedRun& run) {
 
 Json count_transitions(const DescribedRun& run) {
   Json json;
-  for (const auto& [kind, name, note] : names_of(EventKind{})) {
-    json[name] = std::ranges::count(run.result->transitions, kind, &Transition::kind);
+  using enum EventKind;
+  for (const EventKind kind :
+       {contact_begins, contact_yields, contact_unloads, contact_ends, section_reverses}) {
+    json[std::string(to_string(kind))] =
+        std::ranges::count(run.result->transitions, kind, &Transition::kind);
   }
   return json;
 }
@@ -263,10 +206,6 @@ Json count_transitions(const DescribedRun& run) {
 std::optional<bool> tolerance_met(const DescribedRun& run) {
   const std::optional<ToleranceOutcome>& tolerance = run.result->tolerance;
   return tolerance ? std::optional(tolerance->met) : std::nullopt;
-}
-
-void read_tolerance_met(const Json& met, DescribedRun& run) {
-  if (!met.is_null()) run.result->tolerance.emplace().met = met.get<bool>();
 }
 
 // Names lead to objects of a value and an error; without error bars there are none.
@@ -280,29 +219,12 @@ Json totals_json(const DescribedRun& run) {
   return json;
 }
 
-void read_totals(const Json& json, DescribedRun& run) {
-  if (json.is_null() || !run.result->error_estimate) return;
-  ErrorEstimate& estimate = *run.result->error_estimate;
-  for (int k = 0; k <= static_cast<int>(RunTotal::dissipated); ++k) {
-    const auto total = json.find(to_string(RunTotal{k}));
-    if (total == json.end()) continue;
-    assign(total_record, *total, estimate.totals.emplace_back(RunTotal{k}, Total()).total);
-  }
-  assign(zone_totals_record, json.at("by_zone"), estimate.zones);
-}
-
 std::optional<BeamAtRest> beam_at_rest(const DescribedRun& run) {
   const Result& result = *run.result;
   if (result.envelope.empty() || result.outcome.first_failure) return std::nullopt;
   const EnvelopeRow& largest = *std::ranges::max_element(
       result.envelope, {}, [](const EnvelopeRow& row) { return std::abs(row.set_from_supports); });
   return BeamAtRest{largest.set_from_supports, largest.position, result.plastic_zones};
-}
-
-void read_rest(const Json& json, DescribedRun& run) {
-  BeamAtRest rest;
-  if (!json.is_null()) assign(rest_record, json, rest);
-  run.result->plastic_zones = rest.plastic_zones;
 }
 
 // clang-format off
@@ -316,8 +238,8 @@ Record<DescribedRun> make_run_record() {
       {"layout", "version of the layout of this file", [](const DescribedRun&) { return summary_layout; }},
       {"program.name", "", [](const DescribedRun&) { return std::string("subimpact"); }},
       {"program.version", "version of the program", &DescribedRun::program_version},
-      {"libraries", "their versions", &libraries_json, &read_libraries},
-      {"case", "keys of the case as asked for", &case_json, &read_case},
+      {"libraries", "their versions", &libraries_json},
+      {"case", "keys of the case as asked for", &case_json},
       {"case_units", "units of the keys", &case_units},
 
       {"used.method", "settings used, where the case left a choice open or it was derived", [](const DescribedRun& run) { return run.input->solver.method; }},
@@ -342,20 +264,20 @@ Record<DescribedRun> make_run_record() {
       contact_stiffness_entry(),
       {"used.yield_indentation_m", "at which a contact without history first yields", used(&Used::yield_indentation)},
       {"used.yield_curvature_per_m", "at which a section first yields", used(&Used::yield_curvature)},
-      {"used.first_period_s", "first period of the beam in bending", used(&Used::first_period), Form::finite},
-      {"used.initial_energy_J", "energy of the striker before the strike", used(&Used::initial_energy), Form::finite},
+      {"used.first_period_s", "first period of the beam in bending", used(&Used::first_period)},
+      {"used.initial_energy_J", "energy of the striker before the strike", used(&Used::initial_energy)},
       {"used.energy_tolerance_relative", "error of the energy that is allowed", used(&Used::energy_tolerance)},
       {"used.shape_interval_s", "time between shapes; 0: none", used(&Used::shape_interval)},
       {"used.n_shape_points", "points of a shape", used(&Used::n_shape_points)},
 
       {"outcome.kind", "completed, stopped, inaccurate, unstable, chattering, solver-failed or left-validity", outcome(&Outcome::kind)},
-      {"outcome.time_s", "time reached", outcome(&Outcome::time), Form::from_zero},
+      {"outcome.time_s", "time reached", outcome(&Outcome::time)},
       {"outcome.message", "cause and what to do, of a run that did not complete", outcome(&Outcome::message)},
-      {"outcome.first_failure_s", "last time at which every check passed, first at which one failed", outcome(&Outcome::first_failure), Form::finite},
-      {"wish_met", "whether accuracy.event_times was met; null: none was asked for", &tolerance_met, &read_tolerance_met},
+      {"outcome.first_failure_s", "last time at which every check passed, first at which one failed", outcome(&Outcome::first_failure)},
+      {"wish_met", "whether accuracy.event_times was met; null: none was asked for", &tolerance_met},
       {"wish", "outcome of accuracy.event_times", result(&Result::tolerance), tolerance_record},
       {"choice", "why mesh and method are what they are", result(&Result::choice)},
-      {"model_choice", "why theory and contact law are what they are, if they were chosen", [](auto& run) -> auto& { return run.input->model_choice; }},
+      {"model_choice", "why theory and contact law are what they are, if they were chosen", [](const auto& run) -> auto& { return run.input->model_choice; }},
       {"body_errors", "errors of the body; null: not estimated", result(&Result::body_errors), body_record()},
       {"verdict", "first words on the run", [](const DescribedRun& run) { return std::optional(run.result->verdict); }, verdict_record()},
       {"answers", "main numbers of the run, each with both of its errors, in the order of the screen", [](const DescribedRun& run) { return run.result->answers; }, answer_record()},
@@ -375,20 +297,20 @@ Record<DescribedRun> make_run_record() {
       {"first_yield.section_s", "when a section first yields; null: never", result(&Result::first_section_yield)},
       {"first_yield.contact_s", "when the contact first yields; null: never", result(&Result::first_contact_yield)},
       {"no_more_contact_s", "from when it is proven that no contact follows", result(&Result::no_more_contact)},
-      {"contact_over", "yes: proven that no contact follows, for this run and those beside it", [](const DescribedRun& run) { return std::string(run.result->contact_over ? "yes" : "may not be"); }, [](const Json& json, DescribedRun& run) { run.result->contact_over = json == "yes"; }},
+      {"contact_over", "yes: proven that no contact follows, for this run and those beside it", [](const DescribedRun& run) { return std::string(run.result->contact_over ? "yes" : "may not be"); }},
       {"closest_approach", "after the last sub-impact; null: the gap does nothing but grow", result(&Result::closest_approach), approach_record},
-      {"maxima.force_N", "largest contact force", result(&Result::max_force), Form::finite},
-      {"maxima.indentation_m", "largest indentation", result(&Result::max_indentation), Form::finite},
-      {"final.striker_velocity_m_per_s", "velocity of the striker at the end", result(&Result::striker_velocity), Form::finite},
-      {"final.beam_mean_velocity_m_per_s", "momentum of the beam at the end over its mass", result(&Result::beam_mean_velocity), Form::finite},
-      {"first_touch.time_s", "when striker and beam first met; these three are 0 if they never did", result(&Result::first_touch, &Velocities::time), Form::finite},
-      {"first_touch.striker_velocity_m_per_s", "velocity of the striker then", result(&Result::first_touch, &Velocities::striker), Form::finite},
-      {"first_touch.beam_velocity_m_per_s", "velocity then, at the struck point, of the rigid body with momentum and moment of momentum of the beam", result(&Result::first_touch, &Velocities::beam), Form::finite},
-      {"parting.time_s", "the last separation; without one the end", result(&Result::parting, &Velocities::time), Form::finite},
-      {"parting.striker_velocity_m_per_s", "velocity of the striker then", result(&Result::parting, &Velocities::striker), Form::finite},
-      {"parting.beam_velocity_m_per_s", "velocity then of that rigid body", result(&Result::parting, &Velocities::beam), Form::finite},
-      {"restitution", "difference of these velocities at parting over that at the first touch; none before they part, and while they approach again", result(&Result::restitution), Form::finite},
-      {"rests_since_s", "start of a contact in which loads hold striker and beam together to the end and beyond", result(&Result::rests_since), Form::finite},
+      {"maxima.force_N", "largest contact force", result(&Result::max_force)},
+      {"maxima.indentation_m", "largest indentation", result(&Result::max_indentation)},
+      {"final.striker_velocity_m_per_s", "velocity of the striker at the end", result(&Result::striker_velocity)},
+      {"final.beam_mean_velocity_m_per_s", "momentum of the beam at the end over its mass", result(&Result::beam_mean_velocity)},
+      {"first_touch.time_s", "when striker and beam first met; these three are 0 if they never did", result(&Result::first_touch, &Velocities::time)},
+      {"first_touch.striker_velocity_m_per_s", "velocity of the striker then", result(&Result::first_touch, &Velocities::striker)},
+      {"first_touch.beam_velocity_m_per_s", "velocity then, at the struck point, of the rigid body with momentum and moment of momentum of the beam", result(&Result::first_touch, &Velocities::beam)},
+      {"parting.time_s", "the last separation; without one the end", result(&Result::parting, &Velocities::time)},
+      {"parting.striker_velocity_m_per_s", "velocity of the striker then", result(&Result::parting, &Velocities::striker)},
+      {"parting.beam_velocity_m_per_s", "velocity then of that rigid body", result(&Result::parting, &Velocities::beam)},
+      {"restitution", "difference of these velocities at parting over that at the first touch; none before they part, and while they approach again", result(&Result::restitution)},
+      {"rests_since_s", "start of a contact in which loads hold striker and beam together to the end and beyond", result(&Result::rests_since)},
       {"final_energies.striker_J", "at the end; these seven less work_J add up to used.initial_energy_J", energy(&Energies::striker)},
       {"final_energies.beam_kinetic_J", "of the beam's motion", energy(&Energies::beam_kinetic)},
       {"final_energies.bending_elastic_J", "stored in bending", energy(&Energies::bending_elastic)},
@@ -399,14 +321,14 @@ Record<DescribedRun> make_run_record() {
       {"final_energies.work_J", "work of gravity and loads since the start", energy(&Energies::work)},
       {"dissipated_by_damping.contact_J", "energy dissipated by the damping of the contact", result(&Result::contact_damping_loss)},
       {"dissipated_by_damping.beam_J", "energy dissipated by the damping of the beam", result(&Result::beam_damping_loss)},
-      {"reactions.first", "of the support at x = 0; null: free end, or no rows", [](auto& run) -> auto& { return run.result->reactions[0]; }, reaction_record},
-      {"reactions.last", "of the support at x = length", [](auto& run) -> auto& { return run.result->reactions[1]; }, reaction_record},
-      {"rest", "the beam after the run", &beam_at_rest, rest_record, &read_rest},
+      {"reactions.first", "of the support at x = 0; null: free end, or no rows", [](const auto& run) -> auto& { return run.result->reactions[0]; }, reaction_record},
+      {"reactions.last", "of the support at x = length", [](const auto& run) -> auto& { return run.result->reactions[1]; }, reaction_record},
+      {"rest", "the beam after the run", &beam_at_rest, rest_record},
       {"conservation.max_energy_error_relative", "largest error of the energy", result(&Result::max_energy_error)},
       {"conservation.max_momentum_error_relative", "largest error of the momentum; null where supports take momentum up", result(&Result::max_momentum_error)},
       {"conservation.max_impulse_error_relative", "largest difference between an impulse and the integral of its force, over m v0", result(&Result::max_impulse_error)},
       {"error_bars", "errors of event times; null: not estimated", result(&Result::error_estimate), error_record},
-      {"totals", "numbers of the run as a whole, each with its value and its error, which covers 95 of 100; null: not known, as of the largest strain where a hinge forms, in which strains grow without limit on finer meshes. by_zone: for each zone start_s, end_s, impulse_Ns, sub_impacts", &totals_json, &read_totals},
+      {"totals", "numbers of the run as a whole, each with its value and its error, which covers 95 of 100; null: not known, as of the largest strain where a hinge forms, in which strains grow without limit on finer meshes. by_zone: for each zone start_s, end_s, impulse_Ns, sub_impacts", &totals_json},
       {"predictability", "of a case with scatter", result(&Result::predictability), predictability_record},
       {"work.steps", "steps of the method", work(&Work::steps)},
       {"work.rejected_steps", "steps repeated with another length", work(&Work::rejected_steps)},

@@ -29,10 +29,8 @@ void add_range(Columns<EnvelopeRow>& columns, const std::string& name, const std
   const auto add = [&](const char* prefix, const char* words, Extreme EnvelopeRow::Range::*end) {
     const auto column = [&](const std::string& column_name, const std::string& column_meaning,
                             Value value) {
-      columns.push_back(
-          {column_name, column_meaning, [=](auto& row) -> decltype((row.*range.*end.*value)) {
-             return row.*range.*end.*value;
-           }});
+      columns.push_back({column_name, column_meaning,
+                         [=](const EnvelopeRow& row) { return row.*range.*end.*value; }});
     };
     column(prefix + name + unit, std::string(words) + meaning, &Extreme::value);
     column(prefix + name + "_time_s", "instant at which that was reached", &Extreme::time);
@@ -59,38 +57,13 @@ Columns<EnvelopeRow> envelope_columns() {
   return all;
 }
 
-// The strain of a gauge, written or read.
-struct StrainOf {
-  std::size_t gauge;  // from 0
-  const double& operator()(const HistoryRow& row) const { return row.gauge_strains.at(gauge); }
-  double& operator()(HistoryRow& row) const {
-    row.gauge_strains.resize(std::max(row.gauge_strains.size(), gauge + 1));
-    return row.gauge_strains[gauge];
-  }
-};
-
 void add_gauges(const OutputOptions& output, Columns<HistoryRow>& columns) {
   for (std::size_t i = 0; i < output.gauges.size(); ++i) {
     columns.push_back({fmt::format("gauge_{}_strain", i + 1),
                        "with output.gauges: axial strain at the first of them, positive in "
                        "tension; gauge_2_strain, ...: at the others",
-                       StrainOf{i}});
+                       [i](const HistoryRow& row) { return row.gauge_strains.at(i); }});
   }
-}
-
-std::size_t one(const Case&, const Result&) { return 1; }
-std::size_t n_sections(const Case& input, const Result&) { return input.output.sections.size(); }
-std::size_t n_points(const Case& input, const Result&) { return input.output.points.size(); }
-std::size_t n_shape_points(const Case&, const Result& result) {
-  return result.n_shape_rows > 0 ? result.used.n_shape_points : 0;
-}
-std::size_t one_if_repeated(const Case& input, const Result&) { return input.strikes > 1 ? 1 : 0; }
-std::size_t one_with_shapes(const Case& input, const Result& result) {
-  return n_shape_points(input, result) > 0 ? 1 : 0;
-}
-std::size_t n_history_rows(const Result& result) { return result.n_history_rows; }
-std::size_t n_shapes(const Result& result) {
-  return result.n_shape_rows / result.used.n_shape_points;
 }
 
 }  // namespace
@@ -134,7 +107,7 @@ const RunTable<SubImpact>& run_table() {
        {"peak_time_s", "instant of the largest force", &SubImpact::peak_time},
        {"opening_m", "largest gap between striker and beam after it, until the next one or the run's end; empty: still in contact then", &SubImpact::opening},
        {"opening_error_m", "error of opening_m; empty where not known", &SubImpact::opening_error}},
-      &Result::sub_impacts, one};
+      &Result::sub_impacts};
   return table;
 }
 
@@ -146,7 +119,7 @@ const RunTable<Transition>& run_table() {
        {"kind", "contact_begins, contact_yields, contact_unloads, contact_ends, or section_reverses (not by central-difference)", &Transition::kind},
        {"section", "index of the section, from 0; empty for events of the contact", &Transition::section},
        {"value", "indentation (m), or curvature of the section (1/m)", &Transition::value}},
-      &Result::transitions, one};
+      &Result::transitions};
   return table;
 }
 
@@ -176,7 +149,7 @@ const RunTable<HistoryRow>& run_table() {
        {"R_0_N", "force of the support at x = 0 on the beam, positive in the direction of the strike; empty: free end", &HistoryRow::first_reaction},
        {"R_l_N", "the same at x = length", &HistoryRow::last_reaction},
        {"W_J", "work of gravity and loads on striker and beam since the start", &HistoryRow::work}},
-      &Result::history, one, n_history_rows, {&HistoryRow::force, &HistoryRow::indentation, &HistoryRow::struck_deflection, &HistoryRow::striker_relative, &HistoryRow::back_stress}, add_gauges};
+      &Result::history, add_gauges};
   return table;
 }
 
@@ -190,7 +163,7 @@ const RunTable<SectionRow>& run_table() {
        {"moment_Nm", "bending moment M, E I kappa while elastic", &SectionRow::moment},
        {"plastic_curvature_per_m", "curvature - M/(E I)", &SectionRow::plastic_curvature},
        {"strain", "of the outer fibre on the back, as a strain gauge there reads it, tension positive; on the struck side the negative", &SectionRow::strain}},
-      &Result::section_history, n_sections, n_history_rows, {&SectionRow::curvature, &SectionRow::moment}};
+      &Result::section_history};
   return table;
 }
 
@@ -202,7 +175,7 @@ const RunTable<PointRow>& run_table() {
        {"position_m", "position of the point along the beam", &PointRow::position},
        {"displacement_m", "displacement of the axis there", &PointRow::displacement},
        {"velocity_m_per_s", "velocity", &PointRow::velocity}},
-      &Result::point_history, n_points, n_history_rows, {&PointRow::displacement}};
+      &Result::point_history};
   return table;
 }
 
@@ -218,7 +191,7 @@ const RunTable<ShapeRow>& run_table() {
        short_column("curvature_per_m", "curvature", &ShapeRow::curvature),
        short_column("moment_Nm", "bending moment M, E I kappa while elastic", &ShapeRow::moment),
        short_column("plastic_curvature_per_m", "curvature - M/(E I)", &ShapeRow::plastic_curvature)},
-      &Result::shapes, n_shape_points, n_shapes};
+      &Result::shapes};
   return table;
 }
 
@@ -226,7 +199,7 @@ template <>
 const RunTable<EnvelopeRow>& run_table() {
   static const RunTable<EnvelopeRow> table = {
       "envelope.csv", "one row per point of shapes.csv: extremes over its instants and over rows of history.csv, at least 1/4000 of time.end apart",
-      envelope_columns(), &Result::envelope, one_with_shapes};
+      envelope_columns(), &Result::envelope};
   return table;
 }
 // clang-format on
@@ -261,8 +234,7 @@ const RunTable<StrikeRow>& run_table() {
        {"peak_force_error_N", "error of the force, from these runs", &StrikeRow::peak_force_error},
        {"permanent_set_error_m", "error of the permanent set, from these runs",
         &StrikeRow::permanent_set_error}},
-      &Result::strikes,
-      one_if_repeated};
+      &Result::strikes};
   return table;
 }
 

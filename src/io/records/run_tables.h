@@ -6,18 +6,13 @@
 
 namespace subimpact {
 
-/// A table that a run writes: its file, and all that is needed to read, write and describe it.
+/// A table that a run writes: its file, and all that is needed to write and describe it.
 template <class Row>
 struct RunTable {
   const char* file;
   const char* meaning;   ///< of a row
   Columns<Row> columns;  ///< of every case
   std::vector<Row> Result::*rows;
-  /// How many rows there are at an instant; 0: the run writes no such table.
-  std::size_t (*group)(const Case& input, const Result& result);
-  /// For a table that may be too long to hold: how many instants it has; what keeps its extremes.
-  std::size_t (*n_instants)(const Result& result) = nullptr;
-  std::vector<double Row::*> drawn = {};
   /// Adds the columns that only such a case has.
   void (*add_columns)(const OutputOptions& output, Columns<Row>& columns) = nullptr;
 

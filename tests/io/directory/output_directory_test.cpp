@@ -4,7 +4,6 @@
 
 #include "file_size_limit.h"
 #include "io/directory/listed_files.h"
-#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
 #include "testing.h"
@@ -108,8 +107,8 @@ TEST_F(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgram) {
 TEST_F(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
   make(directory.path, "run", "1", {{"events.csv", "of run 1"}});
   make(directory.path, "figures", "1", {{"response.svg", "of run 1"}});
-  EXPECT_EQ(ListedFiles(directory.path).text("events.csv"), "of run 1");
-  EXPECT_EQ(ListedFiles(directory.path).text("response.svg"), "of run 1");
+  EXPECT_EQ(listed_text(directory.path, "events.csv"), "of run 1");
+  EXPECT_EQ(listed_text(directory.path, "response.svg"), "of run 1");
   expect_in(refusal_of(directory.path, "figures", "2"), "holds the results of another run");
   OutputDirectory run(directory.path, "run", "2");
   commit(run, "events.csv", "of run 2");
@@ -170,8 +169,7 @@ class AKilledWriter : public testing::Test {
                   fs::copy_options::overwrite_existing);
   }
   std::string read() const {
-    const ListedFiles files(killed_.path);
-    return files.text("a.csv") + ", " + files.text("b.csv");
+    return listed_text(killed_.path, "a.csv") + ", " + listed_text(killed_.path, "b.csv");
   }
 
   TemporaryDirectory directory_, killed_;
@@ -246,7 +244,7 @@ TEST(APipeInPlaceOfAFile, IsRefusedInsteadOfWaitedFor) {
   const fs::path file = directory.path / "events.csv";
   fs::remove(file);
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
-  expect_in(message_of<ResultsError>([&] { ListedFiles(directory.path).text("events.csv"); }),
+  expect_in(message_of<ResultsError>([&] { listed_text(directory.path, "events.csv"); }),
             "it is no regular file");
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "print.h"
-#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
 #include "temporary_directory.h"

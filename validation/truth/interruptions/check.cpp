@@ -230,11 +230,10 @@ class Interruptions {
 
   // Which run's results a reader finds in a directory. What it finds must be whole. Throws.
   int variant_in(const fs::path& directory) {
-    const ListedFiles files(directory);
-    const auto summary = nlohmann::json::parse(files.text("summary.json"));
+    const auto summary = nlohmann::json::parse(listed_text(directory, "summary.json"));
     const std::size_t n_rows = summary.at("counts").at("history_rows");
     for (const char* table : {"history.csv", "sections.csv"}) {
-      const std::string text = files.text(table);
+      const std::string text = listed_text(directory, table);
       const auto n = static_cast<std::size_t>(std::ranges::count(text, '\n'));
       expect(n == 1 + n_rows, fmt::format("{} rows of {} in {}", n, 1 + n_rows, table));
       const double last = std::stod(text.substr(text.rfind('\n', text.size() - 2) + 1));
