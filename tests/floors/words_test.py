@@ -28,7 +28,6 @@ ALLOWED = {
     "src/report/work_precision.cpp: complete()": "a file",
     "src/simulate/settings/memory.cpp: free_in_control_groups()": "a file of the system",
     "src/study/sweep.cpp: parse_method_name()": "the value of an option",
-    "src/study/advice.cpp: lacks_shear()": "parts of model errors have names",
     "apps/subimpact/listings.cpp: print_new_case()": "the first line of a file",
     "apps/subimpact/main.cpp: unexpected_words()": "an option",
     "apps/subimpact/main.cpp: joined()": "an option",
