@@ -217,8 +217,7 @@ TEST_P(AHeldBeam, IsTheSameToAllMethodsThatTakeIt) {
   input.solver.method = Method::nystrom;
   const Result here = completed(input);
   ASSERT_GE(here.sub_impacts.size(), 3u);
-  for (const Method method :
-       {Method::erk, Method::dirk, Method::adams, Method::bdf}) {
+  for (const Method method : {Method::erk, Method::dirk, Method::adams, Method::bdf}) {
     input.solver.method = method;
     const Result there = completed(input);
     expect_same_starts(here, there, 2e-3);
@@ -253,12 +252,13 @@ TEST_P(AHeldBeam, IsTheSameOnOneHalf) {
 TEST_P(AHeldBeam, IsTheSameOnElementsWhichNaturalModesWouldNotStretch) {
   Case input = strike(GetParam());
   input.model.segments = 1001;
+  input.end_time = 0.2e-3;  // within the first contact
   const Result cells = completed(input);
   input.model.mesh = MeshKind::hermite;
   input.model.elements = 100;
   const Result elements = completed(input);
   EXPECT_EQ(elements.used.mesh.find("modes"), std::string::npos);
-  EXPECT_NEAR(cells.striker_velocity, elements.striker_velocity, 1e-3);
+  EXPECT_NEAR(cells.striker_velocity, elements.striker_velocity, 3e-4 * cells.striker_velocity);
   EXPECT_NEAR(cells.max_force, elements.max_force, 1e-3 * cells.max_force);
 }
 
@@ -282,7 +282,7 @@ TEST_P(AHeldBeam, IsProvenToBeLeftOnlyWhereItIs) {
   input.stop = StopRule::no_more_contact;
   const Result proven = completed(input);
   ASSERT_TRUE(proven.no_more_contact);
-  EXPECT_LT(*proven.no_more_contact, 10e-3);
+  EXPECT_LT(*proven.no_more_contact, 0.9 * input.end_time);
   EXPECT_EQ(proven.sub_impacts.size(), long_run.sub_impacts.size());
 }
 
