@@ -107,6 +107,7 @@ inline bool read_cell(std::string_view cell, std::string& words) {
   return true;
 }
 template <class Value>
+requires requires(Value& held) { read_cell(std::string_view(), held); }
 bool read_cell(std::string_view cell, std::optional<Value>& value) {
   value.reset();
   return cell.empty() || read_cell(cell, value.emplace());
