@@ -52,7 +52,8 @@ TEST(BodyErrors, AddUpToTheErrorAndNameWhatIsNotKnown) {
   EXPECT_TRUE(part_of(*errors, BodyPart::stretching) == nullptr);  // the ends are free
 }
 
-TEST(BodyErrors, OfStretchingIsTheTensionOverTheBucklingLoad) {
+// By hand: the tension of a pinned beam over its buckling load, (w/2r)^2, within a factor of four.
+TEST(BodyErrors, OfStretchingAreOfTheSizeOfTheTensionOverTheBucklingLoad) {
   Case input = elastic_case(0.4e-3);
   input.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
   const Result result = simulate(input);
@@ -61,17 +62,9 @@ TEST(BodyErrors, OfStretchingIsTheTensionOverTheBucklingLoad) {
   const BodyErrors::Part* stretching = part_of(*errors, BodyPart::stretching);
   ASSERT_TRUE(stretching != nullptr && stretching->change.striker_velocity);
   const double half = 0.5 * result.largest_displacement / input.scene.beam.radius_of_gyration();
-  EXPECT_DOUBLE_EQ(*stretching->change.striker_velocity,
-                   half * half * std::abs(result.striker_velocity));
-}
-
-TEST(BodyErrors, TakeNoMoreThanTheyAreWorth) {
-  Case input = elastic_case(0.6e-3);
-  Result result = simulate(input);
-  input.end_time *= 1e4;  // only its own run was cheap
-  const auto errors = body_errors(input, result);
-  ASSERT_TRUE(errors);
-  EXPECT_FALSE(part_of(*errors, BodyPart::shear)->change.parting);
+  EXPECT_GT(*stretching->change.striker_velocity, 0.0);
+  EXPECT_LT(*stretching->change.striker_velocity,
+            4.0 * half * half * std::abs(result.striker_velocity));
 }
 
 TEST(BodyErrors, AreThoseOfCoarserMeshesWhereDampingMakesEachStepDearer) {
@@ -95,13 +88,16 @@ TEST(BodyErrors, AreNoneWhereTheRunIsToEnd) {
   EXPECT_LT(n_asked, 5);
 }
 
-TEST(BodyErrors, AreNoneOfRigidBeamsAndWithoutContact) {
+TEST(BodyErrors, AreNoneWithoutContactAndOfARigidBeamHaveItsBending) {
   Case input = elastic_case(0.6e-3);
   Result untouched = simulate(input);
   untouched.sub_impacts.clear();
   EXPECT_FALSE(body_errors(input, untouched));
   input.model.mesh = MeshKind::rigid;
-  EXPECT_FALSE(body_errors(input, simulate(input)));
+  const auto errors = body_errors(input, simulate(input));
+  ASSERT_TRUE(errors);
+  EXPECT_TRUE(part_of(*errors, BodyPart::bending) != nullptr);
+  EXPECT_TRUE(part_of(*errors, BodyPart::shear) == nullptr);
 }
 
 }  // namespace
