@@ -15,19 +15,19 @@ namespace subimpact {
 
 /// Whether a sub-impact is certain, and the errors of its numbers.
 struct SubImpactAssessment {
-  std::optional<bool> certain;                  ///< exists, alone, in this place
-  std::optional<double> probability;            ///< that it exists so; 1 where certain
-  std::optional<Reason> doubt;                  ///< why it is not certain
-  std::optional<double> start_error;            ///< s, error estimate of start: sum of its parts
-  std::optional<double> end_error;              ///< s, error estimate of end
+  std::optional<bool> certain;        ///< exists, alone, in this place
+  std::optional<double> probability;  ///< that it exists so; 1 where certain
+  std::optional<Reason> doubt;        ///< why it is not certain
+  std::optional<double> start_error;  ///< s, error estimate of start: sum of its parts
+  std::optional<double> end_error;    ///< s, error estimate of end
   /// s, errors of the body of start and end (BodyErrors): the sum of its parts; none: not known.
   std::optional<double> start_body_error, end_body_error;
-  std::optional<double> error_time;             ///< s, part due to the integration in time
-  std::optional<double> error_mesh;             ///< s, part due to the mesh
-  std::optional<double> error_layers;           ///< s, part due to layers in the section
-  std::optional<double> peak_force_error;       ///< N
-  std::optional<double> impulse_error;          ///< N s
-  std::optional<double> max_indentation_error;  ///< m
+  std::optional<double> error_time;                  ///< s, part due to the integration in time
+  std::optional<double> error_mesh;                  ///< s, part due to the mesh
+  std::optional<double> error_layers;                ///< s, part due to layers in the section
+  std::optional<double> peak_force_error;            ///< N
+  std::optional<double> impulse_error;               ///< N s
+  std::optional<double> max_indentation_error;       ///< m
   std::optional<double> residual_indentation_error;  ///< m
   std::optional<double> striker_velocity_error;      ///< m/s
   std::optional<double> opening_error;               ///< m

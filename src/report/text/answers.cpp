@@ -156,9 +156,9 @@ void add_zone(const Result& result, Answer::Item& zone) {
   const bool is_first = zone.number == 1;  // which begins with the first touch
   const std::string count = fmt::format("{} {}", count_text(zone.sub_impacts),
                                         noun_after(zone.sub_impacts.value, "sub-impact"));
+  const bool is_plain = is_lost || !zone.start.error || zone.start.value == 0.0;
   zone.begin_text =
-      fmt::format("from {}: {}",
-                  with_unit(is_lost || !zone.start.error ? time(zone.start) : begin, unit), count);
+      fmt::format("from {}: {}", with_unit(is_plain ? time(zone.start) : begin, unit), count);
   zone.error_text = zone.start.error ? error : "not known";
   zone.body_text = zone.start_body_error ? with_digits(unit.per_si * *zone.start_body_error, 2)
                    : is_first            ? "0"
