@@ -15,7 +15,7 @@ int main() {
                        .yield_stress = 150e6};
   strike.scene.striker = {.mass = 0.201, .nose_radius = 0.01, .velocity = 15.9};
   strike.end_time = 3e-4;
-  const auto [chosen, result] = subimpact::run_as_asked(strike);
+  const auto [chosen, result, beside] = subimpact::run_as_asked(strike);
   for (const auto& hit : result.sub_impacts) {
     if (!hit.end || !hit.end_error) continue;
     std::printf("%.3f to %.3f us, +- %.3f: %s\n", 1e6 * hit.start, 1e6 * *hit.end,
