@@ -39,7 +39,7 @@ TEST(HermiteElements, MoveAlikeInNodesAndInModes) {
   for (const bool half : {true, false}) {
     for (const Way& way : {Way{Method::central_difference, 1e-7}, Way{Method::erk, 1e-4},
                            Way{Method::nystrom, 1e-4}}) {
-      Case input = hermite_case(SectionKind::elastic, 0.3e-3, 40);
+      Case input = hermite_case(SectionKind::elastic, 0.6e-3, 40);
       input.scene.contact = {ContactKind::hertz, 5e9, {}, {}, {}};
       if (!half) {
         input.scene.striker.position = 0.25;
