@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "case_with.h"
-#include "report/pages/page.h"
 #include "sample_result.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/options.h"
