@@ -65,7 +65,7 @@ TEST(ATitle, IsOnlyTextOnThePageOfARun) {
   expect_not_in(page, "<script>`");
   expect_not_in(page, "\x1b");
   expect_in(page,
-            "&lt;script&gt;`touch pwned`&lt;/script&gt; $(touch pwned) @{/=99 x} &quot;a' "
+            "&lt;script&gt;`touch pwned`&lt;/script&gt; $(touch pwned) @{/=99 x} &quot;a&#x27; "
             "&amp; \\x1b[2J");
   EXPECT_FALSE(directory.has("pwned") || directory.has("run/pwned"));
 }

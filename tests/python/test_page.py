@@ -283,11 +283,11 @@ def test_answers_are_those_of_the_screen_with_both_errors(kept):
     total = float(force["total_text"]) / float(force["body_text"]) * force["body_error"]
     assert total == pytest.approx(np.hypot(force["error"], force["body_error"]), rel=0.1)
     for part in force["parts"]:
-        assert f"{part['label']} {part['text']}" in text and (not part["remedy"] or markup.in_print(part["remedy"]) in text)
+        assert markup.escaped(f"{part['label']} {part['text']}") in text and (not part["remedy"] or markup.in_print(part["remedy"]) in text)
 
 
 REFUSALS = {
-    "changed since": lambda d: (d / "history.csv").write_text((d / "history.csv").read_text() + "\n"),
+    "it was changed or cut short since": lambda d: (d / "history.csv").write_text((d / "history.csv").read_text() + "\n"),
     "is not the file that the run wrote": lambda d: (d / "events.csv").write_text(""),
     "has no manifest.json of a run": lambda d: (d / "manifest.json").unlink(),
     "is not a manifest of this program": lambda d: (d / "manifest.json").write_text("[]"),

@@ -210,12 +210,17 @@ def test_rows_are_those_of_single_runs(population, tmp_path):
     with open(tmp_path / "sub_impacts.csv") as file:
         heading, *lines = file.read().splitlines()
     assert heading.startswith("run,index,zone,")
+    names = heading.split(",")
+
+    def own(line):  # without the errors of the body, which a sweep leaves out
+        return [cell for name, cell in zip(names, line.split(","), strict=True) if "body_error" not in name]
+
     for number in (0, 17, 39):
         result = si.run(population.case_of(number))
         result.write(tmp_path / "one")
         events = (tmp_path / "one" / "events.csv").read_text().splitlines()[1:]
-        assert [line for line in lines if line.startswith(f"{number},")] == [
-            f"{number},{event}" for event in events]
+        assert [own(line) for line in lines if line.startswith(f"{number},")] == [
+            own(f"{number},{event}") for event in events]
         row = rows[number]
         assert int(row["run"]) == number
         assert float(row["striker.mass"]) == result["striker.mass"]

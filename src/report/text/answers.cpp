@@ -134,7 +134,9 @@ std::string force_note(const Case&, const Result& result) {
 }
 
 std::string counts_note(const Case& input, const Result& result) {
-  return parted_words(input, result) + error_words(result);
+  std::string words = parted_words(input, result);
+  if (result.all_certain() || words.empty()) return words + error_words(result);
+  return words.substr(0, words.size() - 2);  // what is not certain has a line of its own
 }
 
 std::string joined_note(const Case&, const Result& result) {

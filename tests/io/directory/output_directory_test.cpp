@@ -48,11 +48,11 @@ TEST_F(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
 
 TEST_F(AnOutputDirectory, ThatCannotBeMadeIsRefusedWithTheCause) {
   directory.write("file", "x");
-  expect_in(refusal_of(directory.path / "file", "run"), "a file has that name");
+  expect_in(refusal_of(directory.path / "file", "run"), "cannot be made (Not a directory)");
   expect_in(refusal_of(directory.path / "file" / "below", "run"), "cannot be made");
   expect_in(refusal_of(directory.path / std::string(300, 'x'), "run"), "File name too long");
   fs::create_symlink("nothing", directory.path / "link");
-  expect_in(refusal_of(directory.path / "link", "run"), "a symbolic link to nothing");
+  expect_in(refusal_of(directory.path / "link", "run"), "cannot be made (File exists)");
 }
 
 TEST_F(AnOutputDirectory, NamedByASymbolicLinkHasItsFilesInTheirPlaces) {

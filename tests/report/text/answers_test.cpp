@@ -55,7 +55,7 @@ TEST(Answers, AreOneOfEachKeyInTheOrderOfTheScreenWhateverTheRun) {
 }
 
 TEST(Answers, HaveTheDigitsOfTheirErrorsOfTheComputation) {
-  expect_numbers(answer_of_sample(largest_force), "8.7963 kN at 0 us", "0.0005", "not known");
+  expect_numbers(answer_of_sample(largest_force), "8.7963 kN at 0.0 us", "0.0005", "not known");
   expect_numbers(answer_of_sample(dent), "0.1540 mm", "0.0009", "not known");
   expect_numbers(answer_of_sample(restitution), "0.20302", "0.00008", "not known");
   expect_numbers(answer_of_sample(impulse), "0.3000 N s", "0.0011", "not known");
@@ -73,13 +73,13 @@ TEST(Answers, WhoseErrorExceedsThemAreALimit) {
   for (auto& [name, total] : result.error_estimate->totals) {
     if (name == RunTotal::peak_force) total.error = 12e3;
   }
-  expect_numbers(answer_to(paper_case(), result, largest_force), "at most 30 kN at 0 us", "12",
+  expect_numbers(answer_to(paper_case(), result, largest_force), "at most 30 kN at 0.0 us", "12",
                  "not known");
 }
 
 TEST(Answers, HaveTheSumOfThePartsAsErrorOfTheBody) {
   const Answer answer = answer_to(paper_case(), result_with_body_errors(), largest_force);
-  expect_numbers(answer, "8.7963 kN at 0 us", "0.0005", "2.5");
+  expect_numbers(answer, "8.7963 kN at 0.0 us", "0.0005", "2.5");
   EXPECT_DOUBLE_EQ(answer.body_error.value(), 2500.0);
   ASSERT_EQ(answer.parts.size(), 2u);
   EXPECT_EQ(answer.parts[0].kind, BodyPart::contact_law);
@@ -172,12 +172,13 @@ TEST(Answers, SayWhatJoiningLeavesOfTheSubImpacts) {
   expect_in(answer.note, "--opening 1um");
   input.output.opening = 2e-6;
   expect_in(answer_to(input, result, sub_impacts).note,
-            "contacts parted by less than 2 um joined, 0 parted by more than 10 um; ");
+            "contacts parted by less than 2 um joined, 0 parted by more than 10 um");
 }
 
 TEST(Answers, OnABeamThatStaysElasticAreTheShareOfFirstYield) {
   Result result = sample_result();
   result.used.yield_curvature = 0.5;
+  result.used.n_sections = 9;
   EnvelopeRow row;
   row.position = 0.1;
   row.strain.include(0.25 * 0.5 * paper_case().scene.beam.thickness, 1e-3);
@@ -185,7 +186,7 @@ TEST(Answers, OnABeamThatStaysElasticAreTheShareOfFirstYield) {
   Case input = paper_case();
   input.model.section = SectionKind::exact;
   EXPECT_EQ(answer_to(input, result, permanent_set).why, WhyNot::stays_elastic);
-  EXPECT_EQ(answer_to(input, result, yield_share).text, "0.5 at 0.1 m");
+  EXPECT_EQ(answer_to(input, result, yield_share).text, "0.500000 at 0.1 m");
   expect_in(answered(input, result).verdict.text, "the beam stays elastic");
 }
 
@@ -251,7 +252,7 @@ TEST(Answers, StandInTheSummaryFileAsOnTheScreen) {
 
 TEST(TheVerdict, HasTheTotalErrorAndWhatIsNotSure) {
   expect_in(answered(paper_case(), result_with_body_errors()).verdict.text,
-            "3 sub-impacts in 8 ms, all certain; up to 8.8 +- 2.5 kN; ", "still in contact.");
+            "3 sub-impacts in 8 ms, all certain; up to 9 +- 3 kN; ", "still in contact.");
   Result result = sample_result_with_errors(2);
   result.sub_impacts.back().end = 6e-3;
   expect_in(answered(paper_case(), result).verdict.text, "2 certain", "8.80 kN (+- not known)",
@@ -260,6 +261,7 @@ TEST(TheVerdict, HasTheTotalErrorAndWhatIsNotSure) {
   expect_in(answered(paper_case(), result).verdict.text, "contact is over.");
   result.rests_since = 5e-3;
   expect_in(answered(paper_case(), result).verdict.text, "rest on each other");
+  result.rests_since.reset();
   result.sub_impacts.clear();
   expect_in(answered(paper_case(), result).verdict.text, "No contact in 8 ms");
 }

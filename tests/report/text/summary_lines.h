@@ -23,9 +23,9 @@ inline Answer answer_to(const Case& input, const Result& result, AnswerKey key) 
 
 /// The line of a summary with that label.
 inline std::string line_of(const std::string& summary, const std::string& label) {
-  const auto begin = summary.find("  " + label);
+  const auto begin = summary.find("\n  " + label);
   if (begin == std::string::npos) return {};
-  return summary.substr(begin, summary.find('\n', begin) - begin);
+  return summary.substr(begin + 1, summary.find('\n', begin + 1) - begin - 1);
 }
 
 }  // namespace subimpact
