@@ -179,7 +179,7 @@ def _body(answers: list[dict[str, Any]]) -> str:
               ", ".join(f"{part['label']} {part['text']}" for part in answer["parts"])) for answer in answers if answer["parts"]]
     remedies = {part["label"]: part["remedy"] for answer in answers for part in answer["parts"] if part["remedy"]}
     listed = "".join(f"<dt>{escaped(label)}</dt><dd>{in_print(remedy)}</dd>\n" for label, remedy in remedies.items())
-    return table(["", "", "computed", "body", "of which"], parts, "model") + f'<dl class="steps">\n{listed}</dl>\n' if parts else ""
+    return table(["", "", "computed", "body", "of which"], parts, "model") + f'<dl class="steps remedies">\n{listed}</dl>\n' if parts else ""
 
 
 def _answers(summary: Mapping[str, Any]) -> dict[str, str]:
