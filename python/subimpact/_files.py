@@ -8,6 +8,7 @@ import io
 import json
 import os
 from collections.abc import Iterator
+from functools import cached_property
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -131,6 +132,7 @@ class Files:
                                f"{LAYOUTS[name]}; use the program that wrote it")
         return found
 
+    @cached_property
     def of_run(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """summary.json and report.json of a run. Raises ResultsError."""
         summary = self.json("summary.json", "the summary of a run")

@@ -31,7 +31,7 @@ def _page(options: argparse.Namespace) -> tuple[str, str, list[str]]:
     from . import run
 
     text = run.page(files, options.dygraphs, options.measured)
-    notes = (("warning", files.of_run()[1]["caveat"]), ("note: no zoomable charts", markup.charts(options.dygraphs)[2]))
+    notes = (("warning", files.of_run[1]["caveat"]), ("note: no zoomable charts", markup.charts(options.dygraphs)[2]))
     return "report.html", text, [f"{kind}: {words}" for kind, words in notes if words]
 
 

@@ -194,7 +194,7 @@ def _answers(summary: Mapping[str, Any]) -> dict[str, str]:
 
 def page(files: Files, dygraphs: str, measured: str = "") -> str:
     """The page of the run in a directory; `measured`: where subimpact.measured has written, or empty. Raises ResultsError."""
-    summary, report = files.of_run()
+    summary, report = files.of_run
     section, overlay, more_figures = _measured(measured)
     shown = drawn_figures(files.directory / "figures", files.identity)
     shown.drawn.extend(more_figures)
