@@ -184,7 +184,7 @@ def _body(answers: list[dict[str, Any]]) -> str:
 
 def _answers(summary: Mapping[str, Any]) -> dict[str, str]:
     """Those of the first screen, all others, and what the body's errors are made of."""
-    answers = [answer for answer in summary["answers"] if answer["known"] or answer["note"]]
+    answers = [answer for answer in summary["answers"] if answer["known"] or answer["key"] in (*_FIRST, "restitution")]
     further = [_tile(answer) for answer in answers if answer["key"] not in _FIRST and answer["key"] != "zones"]
     zones = [item for answer in answers for item in answer["items"]]
     further += [(f"zone {zone['number']}", zone["text"], "") for zone in zones[:_MOST_ZONES]]

@@ -164,7 +164,7 @@ def _differing(summaries: Sequence[Mapping[str, Any]]) -> list[list[str]]:
 
 def _answers(reports: Sequence[Mapping[str, Any]], summaries: Sequence[Mapping[str, Any]]) -> list[list[str]]:
     """What is asked of each run first, and how it was computed."""
-    lists = [{answer["label"]: f"{answer['text']} {errors_of(answer)}" for answer in summary["answers"] if answer["known"]}
+    lists = [{answer["label"]: f"{answer['text']} ({errors_of(answer)})".replace(" ()", "") for answer in summary["answers"] if answer["known"]}
              for summary in summaries]
     for of_run, report, summary in zip(lists, reports, summaries):
         of_run.update({"outcome": summary["outcome"]["kind"], "mesh": summary["used"]["mesh"], "method": summary["used"]["method"],
