@@ -40,17 +40,26 @@ except ModuleNotFoundError as error:
     refuse(error)
 )";
 
+// The directory above that of the program.
+fs::path own_prefix() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
+}
+
+// In a virtual environment, where pip installs the program, that of the environment.
 std::string interpreter() {
   const char* named = std::getenv("SUBIMPACT_PYTHON_EXECUTABLE");
-  return named != nullptr && *named != '\0' ? named : SUBIMPACT_PYTHON_EXECUTABLE;
+  if (named != nullptr && *named != '\0') return named;
+  std::error_code error;
+  return fs::exists(own_prefix() / "pyvenv.cfg", error)
+             ? (own_prefix() / "bin" / "python3").string()
+             : SUBIMPACT_PYTHON_EXECUTABLE;
 }
 
 // The first directory with the package: in the build tree, below the prefix; else empty.
 std::string package_directory() {
   std::error_code error;
-  const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& place :
-       {bin.parent_path() / "python", bin.parent_path() / SUBIMPACT_PYTHON_DIR}) {
+  for (const fs::path& place : {own_prefix() / "python", own_prefix() / SUBIMPACT_PYTHON_DIR}) {
     if (fs::exists(place / "subimpact" / "__init__.py", error)) return place.string();
   }
   return {};
