@@ -12,6 +12,7 @@
 #include <cstring>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "case/refuse.h"
 #include "io/directory/listed_files.h"
