@@ -155,7 +155,6 @@ void add_zone(const Result& result, Answer::Item& zone) {
                        : with_decimals(unit.per_si * total.value, decimals_of_times(result, unit));
   };
   const auto [begin, error, is_lost] = number_and_error(unit, zone.start, as_time.most_digits);
-  const bool is_first = zone.number == 1;  // which begins with the first touch
   const std::string count = fmt::format("{} {}", count_text(zone.sub_impacts),
                                         noun_after(zone.sub_impacts.value, "sub-impact"));
   const bool is_plain = is_lost || !zone.start.error || zone.start.value == 0.0;
@@ -163,7 +162,7 @@ void add_zone(const Result& result, Answer::Item& zone) {
       fmt::format("from {}: {}", with_unit(is_plain ? time(zone.start) : begin, unit), count);
   zone.error_text = zone.start.error ? error : "not known";
   zone.body_text = zone.start_body_error ? with_digits(unit.per_si * *zone.start_body_error, 2)
-                   : is_first            ? "0"
+                   : zone.number == 1    ? "0"  // it begins with the first touch
                                          : "not known";
   zone.text =
       fmt::format("{}{}, {} to {}, {}", count,
