@@ -266,7 +266,7 @@ constexpr const char* words_of_reasons[] = {
     "the beam has no supports"};
 
 std::string label_of(const Result& result, const Answer& answer) {
-  const std::string label = words_of(answer.key).label;
+  std::string label = words_of(answer.key).label;
   if (answer.key == AnswerKey::striker_velocity) {
     return label + " at " + duration_text(result.outcome.time);
   }
