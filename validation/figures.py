@@ -2,14 +2,12 @@
 """Draws the figures of studies from their tables, with the Python package of the build.
 
     validation/figures.py NAME TABLE [FILE]     mesh, grazes, scatter or peers; FILE: without its ending
-    validation/figures.py stability DIR         all figures of a directory, as SVG files in it
+    validation/figures.py stability DIR         critical_steps, stiff_contact and damping of a directory, in it
     validation/figures.py hysteresis FILE       the law of bending of docs/theory.md
 """
 
 import sys
-import tempfile
 from pathlib import Path
-from shutil import copy
 
 import matplotlib.ticker
 import numpy as np
@@ -17,7 +15,7 @@ import numpy as np
 matplotlib.use("Agg")
 
 from subimpact import plot  # noqa: E402
-from subimpact.plot.style import COLOURS, GREY  # noqa: E402
+from subimpact.plot.style import COLOURS, GREY, legend_above  # noqa: E402
 
 KINDS = {"cells": "cells", "without_hinges": "elements without hinges", "elements": "elements",
          "graded": "graded elements"}
@@ -89,6 +87,67 @@ def scatter(table, axes):
     axes[-1].set_xlabel("time, ms")
 
 
+def line(k):
+    """Colour and dashes of the k-th of many lines."""
+    return COLOURS[k % len(COLOURS)], ("-", "--", ":")[k // len(COLOURS) % 3]
+
+
+@plot.figure([[0, 1, 2]], height=4.0, sharey=True)
+def critical_steps(table, axes):
+    """The largest stable step of explicit methods over the number of cells: lines predicted, points
+    measured."""
+    methods = dict.fromkeys(table["method"])
+    for panel, theory, title in zip(axes, ("rayleigh", "euler-bernoulli", "timoshenko"),
+                                    ("Rayleigh", "without rotary inertia", "with shear")):
+        for k, method in enumerate(methods):
+            rows = (table["theory"] == theory) & (table["method"] == method)
+            colour, dashes = line(k)
+            cells = table["segments"][rows]
+            panel.plot(cells, 1e6 * table["predicted_s"][rows], dashes, color=colour, label=method)
+            panel.plot(cells, 1e6 * table["measured_s"][rows], "o", color=colour)
+        panel.set(xscale="log", yscale="log", title=title, xlabel="cells")
+        sizes = np.unique(table["segments"])
+        panel.set_xticks(sizes, [f"{n:g}" for n in sizes])
+        panel.minorticks_off()
+    axes[0].set_ylabel("largest stable step, µs")
+    axes[2].legend(loc="upper left", bbox_to_anchor=(1, 1))
+
+
+@plot.figure([[0]], height=3.8)
+def stiff_contact(table, axes):
+    """The largest stable step of central differences while a spring holds the striker in contact."""
+    x = table["stiffness_N_per_m"]
+    axes.semilogx(x, 1e6 * table["beam_only_s"], "--", color=COLOURS[6], label="beam alone")
+    axes.semilogx(x, 1e6 * table["predicted_s"], label="beam, contact and striker: predicted")
+    axes.semilogx(x, 1e6 * table["measured_s"], "o", label="measured")
+    axes.set(xlabel="contact stiffness, N/m", ylabel="largest stable step, µs")
+    axes.set_ylim(bottom=0)
+    legend_above(axes)
+
+
+@plot.figure([[0, 1]], height=3.8)
+def damping(tables, axes):
+    """What methods leave of an oscillation in one step: implicit tables, and the growth by backward
+    differentiation, above 1 where an oscillation grows."""
+    left, growth = tables
+    for k, method in enumerate(dict.fromkeys(left["method"])):
+        rows = left["method"] == method
+        colour, dashes = line(k)
+        axes[0].semilogx(left["omega_h"][rows], left["predicted"][rows], dashes, color=colour,
+                         label=method.partition(":")[2] or method)
+        axes[0].semilogx(left["omega_h"][rows], left["measured"][rows], "o", color=colour, markersize=3)
+    axes[0].set(title="implicit tables: lines predicted, points measured", ylabel="amplitude left by one step",
+                ylim=(0, 1.05))
+    axes[1].axhline(1, color=GREY, linestyle="--", linewidth=0.8)
+    for order in np.unique(growth["order"]):
+        rows = growth["order"] == order
+        axes[1].semilogx(growth["omega_h"][rows], growth["growth"][rows], label=f"order {order:g}")
+    axes[1].set(title="BDF: above 1 an oscillation grows", ylabel="growth per step", ylim=(0.7, 1.15))
+    for panel in axes:
+        panel.set(xlabel="$ω h$", xlim=(0.1, 100))
+        panel.legend()
+
+
 def virgin(x):
     """Moment over that of first yield, of the curvature over that of first yield, in a rectangle."""
     return np.where(np.abs(x) <= 1, x, np.sign(x) * (1.5 - 0.5 / np.maximum(np.abs(x), 1) ** 2))
@@ -123,10 +182,10 @@ def hysteresis(_, axes):
 
 def main(name, source, target=None):
     if name == "stability":
-        with tempfile.TemporaryDirectory() as out:
-            plot.draw_directory(source, out, ("svg",))
-            for file in Path(out).glob("*.svg"):
-                copy(file, source)
+        table = {file.stem: plot.read_table(file) for file in Path(source).glob("*.csv")}
+        for draw in (critical_steps, stiff_contact):
+            plot.save(draw(table[draw.__name__]), Path(source) / draw.__name__, ("svg",))
+        plot.save(damping((table["damping"], table["bdf_growth"])), Path(source) / "damping", ("svg",))
         return
     if name == "hysteresis":
         plot.save(hysteresis(None), source, ("svg",))

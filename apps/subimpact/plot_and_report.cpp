@@ -45,12 +45,8 @@ struct PassedOption {
 
 // Of subimpact.measured, which checks the values.
 constexpr PassedOption measured_options[] = {
-    {"--shift",
-     "By how much the measured time is later than that of the run, with its unit: -12.5us. "
-     "Default: found, where the two forces differ least"},
-    {"--low-pass",
-     "Cut-off of the transducer, with its unit: 20kHz; the computed force is filtered by a "
-     "Butterworth low-pass of fourth order. \"find\": the cut-off is found. Default: no filter"},
+    {"--shift", "How much later the measured time is: -12.5us. Default: found"},
+    {"--low-pass", "Cut-off of the transducer, 20kHz or \"find\". Default: no filter"},
     {"--gain", "Measured over true force, or \"find\". Default: 1"},
     {"--gauge", "Of a measured strain: the gauge in output.gauges, from 1. Default: 1"},
     {"--columns", "Columns of time and force in the file, by number or name: 1,3"},

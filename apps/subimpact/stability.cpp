@@ -17,8 +17,6 @@ struct Part {
 
 std::vector<Part> parts_of(const Case& input, const StabilityCommand& command,
                            StudySession& session) {
-  const std::vector<std::string>& methods = command.methods;
-  const auto asked = [&methods](const char* method) { return asked_for(methods, method); };
   const auto counter = [&session](const char* what) -> Count {
     return [&session, what](std::size_t n, std::size_t all) {
       session.status.show(fmt::format("{}: {} of {}", what, n, all));
@@ -26,18 +24,6 @@ std::vector<Part> parts_of(const Case& input, const StabilityCommand& command,
     };
   };
   return {
-      {"critical", "Explicit methods: largest stable step, elastic beam",
-       [=, &input, &command] { return part_of(critical_steps(input, methods, command.jobs)); }},
-      {"contact", "Central differences: largest stable step in stiff contact",
-       [=, &input, &command] {
-         return asked("central-difference") ? part_of(stiff_contact(input, command.jobs))
-                                            : StabilityPart();
-       }},
-      {"damping", "Implicit methods: share of an oscillation left by one step",
-       [=, &input, &command] {
-         if (!asked("dirk") && !asked("bdf")) return StabilityPart();
-         return part_of(damping_of_implicit_tables(input, command.jobs), bdf_growths());
-       }},
       {"map", "Outcomes of runs of the case",
        [=, &input, &command] {
          return part_of(outcome_map(input, command.methods, command.run_seconds, command.jobs,
@@ -45,7 +31,7 @@ std::vector<Part> parts_of(const Case& input, const StabilityCommand& command,
        }},
       {"pairs", "Sub-impacts within one step, elastic beam at several speeds",
        [=, &input, &command] {
-         return asked("exponential")
+         return asked_for(command.methods, "exponential")
                     ? part_of(missed_pairs(input, command.jobs, counter("strikes")))
                     : StabilityPart();
        }},
@@ -126,11 +112,9 @@ void add_stability(CLI::App& program, int& status) {
                   "its tables. Default: all");
   add_list_option(
       command, "--parts", options.parts,
-      "Only these parts, separated by commas: critical (largest stable steps), contact (the same "
-      "in stiff contact), damping (of implicit methods), map (right, wrong count, inaccurate, "
-      "unstable, refused, failed), pairs (sub-impacts within one step), layers (against the exact "
-      "section)")
-      ->check(CLI::IsMember({"critical", "contact", "damping", "map", "pairs", "layers"}));
+      "Only these parts, separated by commas: map (right, wrong count, inaccurate, unstable, "
+      "refused, failed), pairs (sub-impacts within one step), layers (against the exact section)")
+      ->check(CLI::IsMember({"map", "pairs", "layers"}));
   add_directory_option(command, options.directory,
                        "Directory for CSV files; made if missing. Default: the case file's "
                        "name without its ending, and -stability, in the current directory");
@@ -141,7 +125,7 @@ void add_stability(CLI::App& program, int& status) {
       "Parts are printed and written one by one; after Ctrl-C the finished parts remain.\n"
       "Examples:\n"
       "  subimpact stability case.toml --out out/stability; subimpact plot out/stability\n"
-      "  subimpact stability case.toml --parts critical --methods central-difference,erk\n"
+      "  subimpact stability case.toml --parts map,pairs --methods central-difference,exponential\n"
       "  subimpact stability case.toml --parts map --set time.end=2e-3\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a part failed, the other parts are "
       "complete; 130 stopped by Ctrl-C.");

@@ -1,7 +1,5 @@
-#include <fmt/ranges.h>
-
-#include "case/counted.h"
 #include "commands.h"
+#include "io/directory/listed_files.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/report/studies.h"
 
@@ -40,48 +38,36 @@ std::vector<LabelledCase> cases_of(const LoadedCase& loaded,
   return cases;
 }
 
-WorkPrecision study(const WorkPrecisionCommand& command, const LabelledCase& entry, PointLog& log,
-                    StudySession& session) {
-  const std::string id = case_id(entry.input);
-  WorkPrecisionOptions options;
-  options.methods = command.methods;
-  options.point_seconds = command.point_seconds;
-  options.known = [&](const Setting& setting) { return log.known(id, setting); };
-  options.finished = [&](const Trial& point) { log.append(id, entry.label, point); };
-  options.announce = [&](const std::string& what) {
-    session.status.show(entry.label + ": " + what);
-  };
-  options.progress = session.progress();
-  WorkPrecision result = work_precision(entry.input, options);
-  result.label = entry.label;
-  return result;
-}
-
 int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCase>& cases) {
-  std::vector<std::string> ids;
-  for (const LabelledCase& entry : cases) ids.push_back(case_id(entry.input));
   StudySession session;
-  OutputDirectory directory(command.directory, "work-precision",
-                            fmt::to_string(fmt::join(ids, "-")));
-  PointLog log(directory, ids);
-  if (log.n_known() > 0) {
-    print("{} of an earlier study in {} {} kept\n\n", counted(log.n_known(), "point"),
-          command.directory, log.n_known() == 1 ? "is" : "are");
-  }
+  OutputDirectory directory(command.directory, "work-precision", case_id(cases.front().input));
   std::vector<WorkPrecision> studies;
-  for (const LabelledCase& entry : cases) {
-    studies.push_back(study(command, entry, log, session));
+  for (const auto& [label, input] : cases) {
+    studies.push_back({label, {}, {}});
+    WorkPrecisionOptions options;
+    options.methods = command.methods;
+    options.point_seconds = command.point_seconds;
+    options.finished = [&](const std::vector<Trial>& points) {
+      studies.back().points = points;
+      write_file(directory.staging() / "work_precision.csv", work_precision_csv(studies));
+      directory.commit();
+    };
+    options.announce = [&](const std::string& what) {
+      session.status.show(fmt::format("{}: {}", label, what));
+    };
+    options.progress = session.progress();
+    WorkPrecision study = work_precision(input, options);
+    study.label = label;
+    studies.back() = std::move(study);
     session.status.clear();
-    print("{}: {}\n{}\n", title_of(entry.input), entry.label, work_precision_table(studies.back()));
+    print("{}: {}\n{}\n", title_of(input), label, work_precision_table(studies.back()));
     print("cheapest setting whose event times are all within\n{}\n",
           recommendation_text(recommendations_from(studies.back().points)));
     std::fflush(stdout);
-    if (studies.back().interrupted) break;
+    if (studies.back().interrupted) return session.end_interrupted("; finished points are kept");
   }
   print("work_precision.csv in {0}; subimpact plot {0} draws it\n", command.directory);
-  if (!studies.back().interrupted) return done;
-  return session.end_interrupted(
-      "; finished points are kept, and the same command continues from there");
+  return done;
 }
 
 int run_work_precision(WorkPrecisionCommand& command) {
@@ -118,8 +104,7 @@ void add_work_precision(CLI::App& program, int& status) {
       "Each method is swept from coarse to fine, rtol in decades or fixed steps in halves, against "
       "a reference computed by two methods at rtol 1e-12. Runs end at the horizon, up to which the "
       "error of the reference is below 1e-4 us. Runs are timed one at a time: leave the machine "
-      "otherwise idle. After Ctrl-C the finished points are kept; the same command with "
-      "the same --out continues.\n"
+      "otherwise idle. After Ctrl-C the finished points are kept.\n"
       "Examples:\n"
       "  subimpact work-precision case.toml --out out/chart; subimpact plot out/chart\n"
       "  subimpact work-precision case.toml --methods central-difference,erk:dop853,nystrom\n"

@@ -180,7 +180,8 @@ void bind_results(py::module_& module) {
       .def("swept_cells",
            [](const Finished& run) {
              std::string cells;
-             append_row(cells, swept_run_columns(), run);
+             NumberWriter numbers;
+             append_row(cells, swept_run_columns(), run, numbers);
              cells.pop_back();  // the end of the line
              return cells;
            })

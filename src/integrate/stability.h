@@ -1,27 +1,14 @@
 #pragma once
 
-#include <array>
 #include <complex>
 #include <string>
 
 namespace subimpact {
 
-/// The larger modulus of the eigenvalues of a real 2 x 2 matrix.
-double spectral_radius(const std::array<std::array<double, 2>, 2>& m);
-
-/// Stability of tables of coefficients for an undamped oscillation q'' = -omega^2 q in steps of
-/// omega h = y. All throw std::invalid_argument for an unknown table.
-
 /// R(z) of an explicit or diagonally implicit Runge-Kutta table: y' = lambda y goes from y to R(h
-/// lambda) y in one step. On the oscillation, |R(i y)| is the growth of its amplitude.
+/// lambda) y in one step. On an undamped oscillation, |R(i omega h)| is the growth of its amplitude.
+/// Throw std::invalid_argument for an unknown table.
 std::complex<double> explicit_stability(const std::string& table, std::complex<double> z);
 std::complex<double> dirk_stability(const std::string& table, std::complex<double> z);
-
-/// Spectral radius of a step of a Runge-Kutta-Nystroem table on (omega q, v).
-double nystrom_growth(const std::string& table, double y);
-
-/// Largest modulus of a root of sum_j alpha_j zeta^j = i y zeta^k, the backward differentiation
-/// formula of order k = 1 to 5 on y' = i omega y at equal steps.
-double bdf_growth(int order, double y);
 
 }  // namespace subimpact

@@ -41,9 +41,4 @@ double largest_eigenvalue(std::span<const double> diagonal, std::span<const doub
   return solver.eigenvalues().maxCoeff();
 }
 
-double spectral_radius(const Eigen::MatrixXcd& matrix) {
-  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(matrix, false);
-  return solver.eigenvalues().cwiseAbs().maxCoeff();
-}
-
 }  // namespace subimpact

@@ -30,7 +30,4 @@ double largest_eigenvalue(const Eigen::MatrixXd& stiffness, const Eigen::MatrixX
 /// fewer.
 double largest_eigenvalue(std::span<const double> diagonal, std::span<const double> beside);
 
-/// The largest magnitude of the eigenvalues of any square matrix.
-double spectral_radius(const Eigen::MatrixXcd& matrix);
-
 }  // namespace subimpact

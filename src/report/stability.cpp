@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "case/counted.h"
-#include "case/keys/case_choices.h"
 #include "io/directory/listed_files.h"
 #include "numerics/units.h"
 #include "report/study_columns.h"
@@ -15,30 +13,6 @@ namespace {
 
 template <auto number>
 constexpr auto errors = [](const auto& row) { return row.errors.*number; };
-
-std::string difference(const auto& row) {
-  return fmt::format("{:.2f} %", 100.0 * (row.measured / row.predicted - 1.0));
-}
-
-// How much of an oscillation one step leaves at 1, 10 and 100 times the unit of omega h.
-struct DampingOfMethod {
-  std::string method;
-  double left[3] = {0.0, 0.0, 0.0};
-  double largest = 0.0;  // difference between measurement and prediction
-};
-
-std::vector<DampingOfMethod> by_method(const std::vector<Damping>& rows) {
-  std::vector<DampingOfMethod> methods;
-  for (const Damping& row : rows) {
-    if (methods.empty() || methods.back().method != row.method) methods.push_back({row.method});
-    DampingOfMethod& here = methods.back();
-    here.largest = std::max(here.largest, std::abs(row.measured - row.predicted));
-    for (int i = 0; i < 3; ++i) {
-      if (std::abs(row.angle / std::pow(10.0, i) - 1.0) < 1e-9) here.left[i] = row.measured;
-    }
-  }
-  return methods;
-}
 
 template <class Row>
 StabilityPart part_of(const char* name, const StudyColumns<Row>& columns,
@@ -78,63 +52,6 @@ std::string map_text(const OutcomeMap& map) {
 }
 
 }  // namespace
-
-StabilityPart part_of(const std::vector<CriticalStep>& rows) {
-  if (rows.empty()) return {};
-  const auto theory = [](const CriticalStep& row) { return std::string(name_of(row.theory)); };
-  const StudyColumns<CriticalStep> columns = {
-      {"method", &CriticalStep::method, {"method", "<22"}},
-      {"theory", theory, {"theory", "<16"}},
-      {"segments", &CriticalStep::segments, {"cells", ">6"}},
-      {"highest_frequency_rad_per_s", &CriticalStep::highest_frequency},
-      {"limit_omega_h", &CriticalStep::limit, {"omega h", ">9", ".4f"}},
-      {"predicted_s", &CriticalStep::predicted, {"predicted, us", ">13", ".6g", us}},
-      {"measured_s", &CriticalStep::measured, {"measured, us", ">13", ".6g", us}},
-      {"", difference<CriticalStep>, {"difference", ">10"}}};
-  StabilityPart part = part_of("critical_steps", columns, rows);
-  std::string method;
-  for (const CriticalStep& row : rows) {
-    if (row.method == method) continue;
-    method = row.method;
-    for (const Resonance& range : resonances(method)) {
-      part.text +=
-          fmt::format("{}: grows for omega h from {:.4f} to {:.4f} too, by up to {:.1e} per step\n",
-                      method, range.from, range.to, range.growth - 1.0);
-    }
-  }
-  return part;
-}
-
-StabilityPart part_of(const std::vector<StiffContact>& rows) {
-  const StudyColumns<StiffContact> columns = {
-      {"stiffness_N_per_m", &StiffContact::stiffness, {"spring, N/m", ">14", ".4g"}},
-      {"beam_only_s", &StiffContact::beam_only, {"beam only, us", ">14", ".6g", us}},
-      {"predicted_s", &StiffContact::predicted, {"predicted, us", ">14", ".6g", us}},
-      {"measured_s", &StiffContact::measured, {"measured, us", ">14", ".6g", us}},
-      {"", difference<StiffContact>, {"difference", ">10"}}};
-  return part_of("stiff_contact", columns, rows);
-}
-
-StabilityPart part_of(const std::vector<Damping>& rows,
-                      const std::vector<MultistepGrowth>& growths) {
-  const Columns<Damping> columns = {{"method", &Damping::method},
-                                    {"omega_h", &Damping::angle},
-                                    {"predicted", &Damping::predicted},
-                                    {"measured", &Damping::measured}};
-  const Columns<MultistepGrowth> growth = {{"order", &MultistepGrowth::order},
-                                           {"omega_h", &MultistepGrowth::angle},
-                                           {"growth", &MultistepGrowth::growth}};
-  const auto left = [](int i) { return [i](const DampingOfMethod& row) { return row.left[i]; }; };
-  const StudyColumns<DampingOfMethod> printed = {
-      {"", &DampingOfMethod::method, {"share of the amplitude\nleft by one step", "<22"}},
-      {"", left(0), {"omega h = 1\n", ">12", ".5f"}},
-      {"", left(1), {"10\n", ">12", ".5f"}},
-      {"", left(2), {"100\n", ">12", ".5f"}},
-      {"", &DampingOfMethod::largest, {"largest difference\nmeasured - predicted", ">22", ".1e"}}};
-  return {
-      printed_table(printed, by_method(rows)),
-      {{"damping.csv", csv_text(columns, rows)}, {"bdf_growth.csv", csv_text(growth, growths)}}};
-}
 
 StabilityPart part_of(const OutcomeMap& map) {
   const auto if_completed = [](const OutcomePoint& point, double value) {

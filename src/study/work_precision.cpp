@@ -51,10 +51,7 @@ void run_sweep(const Case& compared, const std::vector<Setting>& sweep,
   for (const Setting& setting : sweep) {
     Trial point;
     point.setting = setting;
-    const auto known = options.known ? options.known(setting) : std::nullopt;
-    if (known) {
-      point = *known;
-    } else if (expected > options.point_seconds) {
+    if (expected > options.point_seconds) {
       point.message = fmt::format("would take about {:.2g} s, more than the {:.2g} s allowed",
                                   expected, options.point_seconds);
     } else {
@@ -63,8 +60,8 @@ void run_sweep(const Case& compared, const std::vector<Setting>& sweep,
       study.interrupted = !run_timed(point, study.reference, options);
       if (study.interrupted) return;
     }
-    if (!known && options.finished) options.finished(point);
     study.points.push_back(point);
+    if (options.finished) options.finished(study.points);
     if (point.verdict == Verdict::not_run) return;
     const bool as_good_as_reference =
         point.verdict == Verdict::right && point.errors.maximum < study.reference.error;

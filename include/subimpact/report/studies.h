@@ -11,7 +11,7 @@
 #include "subimpact/io/output_directory.h"
 #include "subimpact/study/compare.h"
 #include "subimpact/study/sensitivity/sensitivity.h"
-#include "subimpact/study/stability/stability.h"
+#include "subimpact/study/stability.h"
 #include "subimpact/study/work_precision.h"
 
 namespace subimpact {
@@ -32,26 +32,8 @@ std::string work_precision_table(const WorkPrecision& study);
 /// One sentence for each wanted error.
 std::string recommendation_text(const std::vector<Recommendation>& recommendations);
 
-/// work_precision.csv in a directory, written point by point, so that an interrupted study keeps
-/// its points and a repeated study continues from there.
-class PointLog {
- public:
-  /// Reads the file of an earlier study of the same cases, and continues from its points. `cases`
-  /// are the ids of the cases of this study. Throws OutputError if the file cannot be written, or
-  /// holds points of other cases, and ResultsError if it was changed since.
-  PointLog(OutputDirectory& directory, const std::vector<std::string>& cases);
-
-  /// A point of an earlier study.
-  std::optional<Trial> known(const std::string& case_id, const Setting& setting) const;
-  std::size_t n_known() const { return known_.size(); }
-  /// Commits the file with one more row. Throws OutputError.
-  void append(const std::string& case_id, const std::string& label, const Trial& point);
-
- private:
-  OutputDirectory& directory_;
-  std::string text_;
-  std::vector<std::pair<std::string, Trial>> known_;  // by the id of the case
-};
+/// work_precision.csv: one row per point of each study.
+std::string work_precision_csv(const std::vector<WorkPrecision>& studies);
 
 /// Identifies a case: a fingerprint of the program's version and of all keys except the title, the
 /// outputs and those that a study sets (method, table, tolerance, step).
@@ -63,10 +45,6 @@ struct StabilityPart {
   std::vector<std::pair<std::string, std::string>> tables;  ///< names of files, and contents
 };
 
-StabilityPart part_of(const std::vector<CriticalStep>& rows);
-StabilityPart part_of(const std::vector<StiffContact>& rows);
-StabilityPart part_of(const std::vector<Damping>& rows,
-                      const std::vector<MultistepGrowth>& growths);
 StabilityPart part_of(const OutcomeMap& map);
 StabilityPart part_of(const std::vector<MissedPairs>& rows);
 StabilityPart part_of(const LayerStudy& study);

@@ -29,7 +29,7 @@ LIST = "figures.json"
 
 _METADATA: dict[str, dict[str, None]] = {"svg": {"Date": None}, "png": {"Software": None}, "pdf": {"CreationDate": None}}
 _ROOT_STYLE = "stroke-linejoin: round; stroke-linecap: butt; font-family: DejaVu Sans, Arial, Helvetica, sans-serif"
-_OF_STABILITY = ("critical_steps", "stiff_contact", "outcomes", "missed_pairs", "layers")
+_OF_STABILITY = ("outcomes", "missed_pairs", "layers")
 _OF_RUN: dict[str, Callable[..., Any]] = {
     "response": run.response,
     "first-sub-impact": run.first_sub_impact,
@@ -118,8 +118,6 @@ def figures_of(directory: Path, *others: Path) -> dict[str, Figure]:
         return {"work_precision": _figure(studies.work_precision, points),
                 "work_precision_evaluations": _figure(studies.work_precision, points, cost="right_hand_sides")}
     figures = {name: _figure(getattr(studies, name), table(name)) for name in _OF_STABILITY if has(f"{name}.csv")}
-    if has("damping.csv") and has("bdf_growth.csv"):
-        figures["damping"] = _figure(studies.damping, (table("damping"), table("bdf_growth")))
     if figures:
         return figures
     result = read_results(directory)

@@ -90,39 +90,6 @@ def outcomes(table: Table, axes: Any) -> None:
     axes[1].legend(handles=patches, loc="upper left", bbox_to_anchor=(1, 1), handlelength=1)
 
 
-@figure([[0, 1, 2]], height=4.0, sharey=True)
-def critical_steps(table: Table, axes: Any) -> None:
-    """The largest stable step of explicit methods over the number of cells: lines predicted, points
-    measured."""
-    methods = _unique(table["method"])
-    for panel, theory, title in zip(axes, ("rayleigh", "euler-bernoulli", "timoshenko"),
-                                    ("Rayleigh", "without rotary inertia", "with shear")):
-        for k, method in enumerate(methods):
-            rows = (table["theory"] == theory) & (table["method"] == method)
-            colour, dashes = _line(k)
-            cells = table["segments"][rows]
-            panel.plot(cells, 1e6 * table["predicted_s"][rows], dashes, color=colour, label=method)
-            panel.plot(cells, 1e6 * table["measured_s"][rows], "o", color=colour)
-        panel.set(xscale="log", yscale="log", title=title, xlabel="cells")
-        sizes = np.unique(table["segments"])
-        panel.set_xticks(sizes, [f"{n:g}" for n in sizes])
-        panel.minorticks_off()
-    axes[0].set_ylabel("largest stable step, µs")
-    axes[2].legend(loc="upper left", bbox_to_anchor=(1, 1))
-
-
-@figure([[0]], height=3.8)
-def stiff_contact(table: Table, axes: Any) -> None:
-    """The largest stable step of central differences while a spring holds the striker in contact."""
-    x = table["stiffness_N_per_m"]
-    axes.semilogx(x, 1e6 * table["beam_only_s"], "--", color=COLOURS[6], label="beam alone")
-    axes.semilogx(x, 1e6 * table["predicted_s"], label="beam, contact and striker: predicted")
-    axes.semilogx(x, 1e6 * table["measured_s"], "o", label="measured")
-    axes.set(xlabel="contact stiffness, N/m", ylabel="largest stable step, µs")
-    axes.set_ylim(bottom=0)
-    legend_above(axes)
-
-
 @figure([[0]], height=3.8)
 def missed_pairs(table: Table, axes: Any) -> None:
     """Strikes wholly found, over the step: sub-impacts and separations that begin and end within one
@@ -154,26 +121,3 @@ def layers(table: Table, axes: Any) -> None:
     axes.set_xticks(n, [f"{k:g}" for k in n])
     axes.minorticks_off()
     legend_above(axes)
-
-
-@figure([[0, 1]], height=3.8)
-def damping(tables: tuple[Table, Table], axes: Any) -> None:
-    """What methods leave of an oscillation in one step: implicit tables, and the growth by backward
-    differentiation, above 1 where an oscillation grows."""
-    left, growth = tables
-    for k, method in enumerate(_unique(left["method"])):
-        rows = left["method"] == method
-        colour, dashes = _line(k)
-        axes[0].semilogx(left["omega_h"][rows], left["predicted"][rows], dashes, color=colour,
-                         label=method.partition(":")[2] or method)
-        axes[0].semilogx(left["omega_h"][rows], left["measured"][rows], "o", color=colour, markersize=3)
-    axes[0].set(title="implicit tables: lines predicted, points measured", ylabel="amplitude left by one step",
-                ylim=(0, 1.05))
-    axes[1].axhline(1, color=GREY, linestyle="--", linewidth=0.8)
-    for order in np.unique(growth["order"]):
-        rows = growth["order"] == order
-        axes[1].semilogx(growth["omega_h"][rows], growth["growth"][rows], label=f"order {order:g}")
-    axes[1].set(title="BDF: above 1 an oscillation grows", ylabel="growth per step", ylim=(0.7, 1.15))
-    for panel in axes:
-        panel.set(xlabel="$ω h$", xlim=(0.1, 100))
-        panel.legend()

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Columns of CSV tables. A column stands in one place, with its name, its meaning and the member
-/// that it holds; heading, writer, reader and documentation follow from the list of columns.
+/// that it holds; heading, writer and documentation follow from the list of columns.
 ///
 /// Numbers have the 17 digits that determine a double, unless their column has fewer. A value that
 /// is absent is an empty cell. No cell is quoted: commas within texts become semicolons.
@@ -87,37 +87,10 @@ constexpr CellType cell_type = std::is_floating_point_v<Value> ? CellType::real
 template <class Value>
 constexpr CellType cell_type<std::optional<Value>> = cell_type<Value>;
 
-/// Each reads a whole cell; false if the cell is no value of that type.
-template <class Number>
-requires std::is_arithmetic_v<Number>
-bool read_cell(std::string_view cell, Number& value) {
-  const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return end.ec == std::errc() && end.ptr == cell.data() + cell.size();
-}
-inline bool read_cell(std::string_view cell, bool& value) {
-  value = cell == "1";
-  return value || cell == "0";
-}
-/// A finite number.
-inline bool read_cell(std::string_view cell, double& value) {
-  return read_cell<double>(cell, value) && std::isfinite(value);
-}
-inline bool read_cell(std::string_view cell, std::string& words) {
-  words = cell;
-  return true;
-}
-template <class Value>
-requires requires(Value& held) { read_cell(std::string_view(), held); }
-bool read_cell(std::string_view cell, std::optional<Value>& value) {
-  value.reset();
-  return cell.empty() || read_cell(cell, value.emplace());
-}
-
 template <class Row>
 struct Column {
-  /// `value`: a pointer to a member of the row; or a function of the row that returns a reference
-  /// to what the cell holds; or a function of the row, or of the row and its index, that returns a
-  /// value, which is then written and never read.
+  /// `value`: a pointer to a member of the row, or a function of the row, or of the row and its
+  /// index.
   template <class Value>
   Column(std::string name_with_unit, std::string meaning_of_value, Value value)
       : name(std::move(name_with_unit)), meaning(std::move(meaning_of_value)) {
@@ -132,11 +105,6 @@ struct Column {
     type = cell_type<std::remove_cvref_t<decltype(held(std::declval<const Row&>(), 0))>>;
     if constexpr (std::is_same_v<Value, double Row::*>) member = value;
     cell = [held](const Row& row, std::size_t index) { return to_cell(held(row, index)); };
-    if constexpr (requires(Row & row) { read_cell(std::string_view(), std::invoke(value, row)); }) {
-      read = [value](std::string_view text, Row& row) {
-        return read_cell(text, std::invoke(value, row));
-      };
-    }
   }
 
   template <class Value>
@@ -148,7 +116,6 @@ struct Column {
   int digits = 17;                ///< of real numbers in the file
   double Row::*member = nullptr;  ///< that the column holds, if it is a number that is always there
   std::function<Cell(const Row&, std::size_t index)> cell;
-  std::function<bool(std::string_view cell, Row&)> read;  ///< none: it is never read
 };
 
 template <class Row>
@@ -173,13 +140,6 @@ void append_row(std::string& text, const Columns<Row>& columns, const Row& row,
     }
   }
   text.push_back('\n');
-}
-
-/// One row by itself.
-template <class Row>
-void append_row(std::string& text, const Columns<Row>& columns, const Row& row) {
-  NumberWriter numbers;
-  append_row(text, columns, row, numbers);
 }
 
 template <class Row>

@@ -1,14 +1,10 @@
 #include <fmt/format.h>
 
 #include "print.h"
-#include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
-#include "temporary_directory.h"
 
 namespace subimpact {
 namespace {
-
-using ALogOfPoints = InADirectory;
 
 Trial point(const std::string& method, double rtol, double error, double seconds,
             Verdict verdict = Verdict::right) {
@@ -38,49 +34,12 @@ std::vector<WorkPrecision> studies() {
   return {study, study};
 }
 
-TEST_F(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
-  const std::vector<WorkPrecision> all = studies();
-  {
-    OutputDirectory files(directory.path, "work-precision", "a-b");
-    PointLog log(files, {"a", "b"});
-    EXPECT_EQ(log.n_known(), 0u);
-    for (const Trial& p : all.front().points) log.append("a", "elastic", p);
-  }
-  OutputDirectory files(directory.path, "work-precision", "a-b");
-  const PointLog log(files, {"a", "b"});
-  EXPECT_EQ(log.n_known(), 5u);
-  const auto unstable = log.known("a", {"nystrom", false, 1e-2});
-  ASSERT_TRUE(unstable.has_value());
-  EXPECT_EQ(unstable->verdict, Verdict::unstable);
-  EXPECT_EQ(unstable->message, "at 3 us it grows; without bound");
-  const auto wrong = log.known("a", {"nystrom", false, 1e-3});
-  ASSERT_TRUE(wrong && wrong->errors.unmatched);
-  EXPECT_EQ(wrong->errors.unmatched->duration, 2e-6);
-  EXPECT_EQ(wrong->errors.maximum, 1e-7);
-  EXPECT_EQ(wrong->seconds, 0.01);
-  EXPECT_EQ(wrong->work.right_hand_sides, 1234);
-  EXPECT_FALSE(log.known("b", {"nystrom", false, 1e-3}).has_value());
-  EXPECT_FALSE(log.known("a", {"nystrom", true, 1e-3}).has_value());
-}
-
-TEST_F(ALogOfPoints, IsNotMixedWithThatOfAnotherCase) {
-  OutputDirectory files(directory.path, "work-precision");
-  PointLog(files, {"a"}).append("a", "elastic", studies().front().points.front());
-  EXPECT_THROW(PointLog(files, {"b"}), OutputError);
-  EXPECT_EQ(PointLog(files, {"a"}).n_known(), 1u);
-}
-
-TEST_F(ALogOfPoints, ThatWasChangedIsRefused) {
-  OutputDirectory files(directory.path, "work-precision");
-  PointLog(files, {"a"}).append("a", "elastic", studies().front().points.front());
-  std::ofstream(directory.path / "work_precision.csv", std::ios::app) << "a,elastic,erk,rt";
-  EXPECT_THROW(PointLog(files, {"a"}), ResultsError);
-}
-
-TEST_F(ALogOfPoints, HasSettingsThatWereNotRunTriedAgain) {
-  OutputDirectory files(directory.path, "work-precision");
-  PointLog(files, {"a"}).append("a", "elastic", point("erk", 1e-9, 0.0, 0.0, Verdict::not_run));
-  EXPECT_EQ(PointLog(files, {"a"}).n_known(), 0u);
+TEST(AWorkPrecisionFile, HasAllPointsWithWhatIsWrongOfThem) {
+  const std::string text = work_precision_csv(studies());
+  EXPECT_EQ(std::ranges::count(text, '\n'), 1 + 2 * 5);
+  expect_in(text, "label,method,kind,setting,verdict,",
+            "\nelastic section,erk:dop853,rtol,0.0001,right,7,7,7,,,5e-09,1e-08,",
+            ",0.001,wrong count,7,7,7,0.001,2e-06,", ",1234,", "at 3 us it grows; without bound");
 }
 
 TEST(CasesOfDifferentScenes, HaveDifferentIdsButSettingsDoNotMatter) {

@@ -1,3 +1,5 @@
+#include "subimpact/study/stability.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include "case/counted.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
-#include "subimpact/study/stability/stability.h"
 
 namespace subimpact {
 namespace {
@@ -97,6 +98,14 @@ double shortest_of(const std::vector<SubImpact>& sub_impacts, double shortest) {
 }
 
 }  // namespace
+
+bool asked_for(const std::vector<std::string>& methods, const std::string& method) {
+  if (methods.empty()) return true;
+  return std::any_of(methods.begin(), methods.end(), [&](const std::string& asked) {
+    return asked == method || method.rfind(asked + ":", 0) == 0 ||
+           method.rfind(asked + "+", 0) == 0;
+  });
+}
 
 OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods,
                        double run_seconds, Jobs jobs, const Count& progress) {

@@ -1,12 +1,13 @@
-#include "integrate/stability.h"
+#include "stability/coefficients.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <stdexcept>
 #include <vector>
 
 #include "integrate/nystrom.h"
-#include "numerics/dense.h"
 
 namespace subimpact {
 
@@ -58,7 +59,8 @@ double bdf_growth(int order, double y) {
     companion(0, j) = -alpha[static_cast<std::size_t>(j) + 1] / Complex(alpha[0], -y);
     if (j + 1 < order) companion(j + 1, j) = 1.0;
   }
-  return spectral_radius(companion);
+  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(companion, false);
+  return solver.eigenvalues().cwiseAbs().maxCoeff();
 }
 
 }  // namespace subimpact

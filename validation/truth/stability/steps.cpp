@@ -1,3 +1,5 @@
+#include "stability/steps.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,13 +11,13 @@
 #include "integrate/stability.h"
 #include "numerics/bracketed_root.h"
 #include "simulate/run_parts.h"
+#include "stability/coefficients.h"
+#include "stability/free_vibration.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
-#include "study/stability/free_vibration.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/study/model/scene_choice.h"
-#include "subimpact/study/stability/stability.h"
 #include "system/contact/contact_resonance.h"
 
 namespace subimpact {
@@ -137,14 +139,6 @@ std::vector<Resonance> resonances(const std::string& method) {
     inside = grows;
   }
   return list;
-}
-
-bool asked_for(const std::vector<std::string>& methods, const std::string& method) {
-  if (methods.empty()) return true;
-  return std::any_of(methods.begin(), methods.end(), [&](const std::string& asked) {
-    return asked == method || method.rfind(asked + ":", 0) == 0 ||
-           method.rfind(asked + "+", 0) == 0;
-  });
 }
 
 std::vector<CriticalStep> critical_steps(const Case& input, const std::vector<std::string>& methods,

@@ -1,14 +1,12 @@
 #pragma once
 
-/// Where and how methods fail, as measured on the beam of a case and as predicted by theory.
-/// Nothing is compared by time, so `jobs` runs go at a time (0: one for each processor).
+/// The largest stable steps of methods, their damping and their growth, as measured on the beam of a
+/// case and as predicted from their coefficients.
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "subimpact/case/simulate.h"
-#include "subimpact/study/judgement/event_errors.h"
+#include "subimpact/study/stability.h"
 
 namespace subimpact {
 
@@ -39,10 +37,6 @@ struct Resonance {
   double growth = 0.0;          ///< largest, per step
 };
 std::vector<Resonance> resonances(const std::string& method);
-
-/// Whether a list of methods includes this one: a name without a table stands for all its tables,
-/// an empty list for all methods.
-bool asked_for(const std::vector<std::string>& methods, const std::string& method);
 
 /// Central differences and every explicit table, both beam theories, meshes of about a fifth, two
 /// fifths, four fifths and eight fifths of the case's cells.
@@ -75,47 +69,5 @@ struct MultistepGrowth {
   double growth = 0.0;  ///< above 1: the oscillation grows
 };
 std::vector<MultistepGrowth> bdf_growths();
-
-struct OutcomePoint : Trial {
-  std::string row;  ///< method, and what else sets the row apart
-  double x = 0.0;   ///< omega_max h of a fixed step, or rtol
-};
-
-struct OutcomeMap {
-  Reference reference;
-  std::vector<OutcomePoint> points;
-};
-
-/// Methods against fixed steps, from far below to far beyond the stable ones, and against
-/// tolerances; backward differentiation order by order; implicit methods with steps at which high
-/// modes are damped away. A run that takes more than `run_seconds` by the clock is left out.
-/// `progress` is called with the numbers of finished and of all runs; false: no more begin, and the
-/// result holds those that have ended.
-using Count = std::function<bool(std::size_t done, std::size_t all)>;
-OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods = {},
-                       double run_seconds = 20.0, Jobs jobs = 0, const Count& progress = {});
-
-/// Sub-impacts and separations that begin and end within one step: of runs at several striking
-/// speeds (from half to one and a half times the case's; elastic beam, exponential method), how
-/// many have all sub-impacts up to the horizon, with and without the search for such pairs.
-struct MissedPairs {
-  double step = 0.0;  ///< s
-  int n_runs = 0;
-  int right_with_search = 0;
-  int right_without = 0;
-  double shortest = 0.0;  ///< s, the shortest sub-impact or separation of all references
-};
-std::vector<MissedPairs> missed_pairs(const Case& input, Jobs jobs = 0, const Count& progress = {});
-
-/// Layers compared with the exact law, their limit, integrated as accurately as the reference.
-struct LayerPoint {
-  int layers = 0;
-  EventErrors errors;  ///< against the exact law
-};
-struct LayerStudy {
-  Reference exact;
-  std::vector<LayerPoint> points;
-};
-LayerStudy layers_against_exact(const Case& input, Jobs jobs = 0, const Count& progress = {});
 
 }  // namespace subimpact
