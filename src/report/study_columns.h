@@ -8,6 +8,10 @@
 
 namespace subimpact {
 
+/// The member of a row that a path of members leads to.
+template <auto... members>
+constexpr auto member = [](const auto& row) { return (row.*....*members); };
+
 struct Print {
   std::string heading;      ///< in one line or in two
   std::string width = {};   ///< alignment and width, as in format strings: ">13"

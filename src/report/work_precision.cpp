@@ -23,7 +23,7 @@ struct Point {
 };
 
 template <auto... members>
-constexpr auto of_trial = [](const Point& row) { return (row.trial.*....*members); };
+constexpr auto of_trial = member<&Point::trial, members...>;
 template <auto found>
 constexpr auto errors = of_trial<&Trial::errors, found>;
 template <auto count>

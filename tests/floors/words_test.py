@@ -25,7 +25,6 @@ ALLOWED = {
     "src/report/text/uncertain.cpp: align()": "puts decimal points under each other",
     "src/report/text/uncertain.cpp: with_decimals()": "digits of a number",
     "src/report/text/uncertain.cpp: with_unit()": "a unit",
-    "src/report/work_precision.cpp: complete()": "a file",
     "src/simulate/settings/memory.cpp: free_in_control_groups()": "a file of the system",
     "src/study/sweep.cpp: parse_method_name()": "the value of an option",
     "apps/subimpact/listings.cpp: print_new_case()": "the first line of a file",

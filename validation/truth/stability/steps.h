@@ -1,7 +1,7 @@
 #pragma once
 
-/// The largest stable steps of methods, their damping and their growth, as measured on the beam of a
-/// case and as predicted from their coefficients.
+/// The largest stable steps of methods, their damping and their growth, as measured on the beam of
+/// a case and as predicted from their coefficients.
 
 #include <string>
 #include <vector>

@@ -98,8 +98,9 @@ void study_growth() {
   }
   const std::vector<Resonance> found = resonances("nystrom:dprkn8");
   for (const Resonance& range : found) {
-    fmt::print("nystrom:dprkn8 grows for omega h from {:.4f} to {:.4f}, by up to {:.1e} per step\n\n",
-               range.from, range.to, range.growth - 1.0);
+    fmt::print(
+        "nystrom:dprkn8 grows for omega h from {:.4f} to {:.4f}, by up to {:.1e} per step\n\n",
+        range.from, range.to, range.growth - 1.0);
   }
   claim(found.size() == 1 && resonances("central-difference").empty(), "one range of resonance");
   claim_near(found.at(0).from, 3.1404, 1e-3, "where the resonance begins");
@@ -138,9 +139,9 @@ void study_damping(const std::filesystem::path& directory) {
   for (const Damping& row : rows) {
     claim_near(row.measured, row.predicted, 1e-8, row.method);
     claim(row.measured < 1.0 + 1e-3, row.method + " grows");
-    for (const auto& [method, left, tolerance] :
-         {std::tuple("dirk:ark324", 0.28, 0.005), {"dirk:esdirk436", 0.75, 0.01},
-          {"dirk:esdirk437", 0.86, 0.005}}) {
+    for (const auto& [method, left, tolerance] : {std::tuple("dirk:ark324", 0.28, 0.005),
+                                                  {"dirk:esdirk436", 0.75, 0.01},
+                                                  {"dirk:esdirk437", 0.86, 0.005}}) {
       if (row.method != method || std::abs(row.angle - 10.0) > 1e-9) continue;
       claim_near(row.measured, left, tolerance, row.method + " at 10");
     }
