@@ -324,6 +324,8 @@ def test_a_fit_finds_two_keys_and_damping_from_zero(strike, elastic):
     assert np.all(found.errors < 0.02 * found.values)
     assert found.correlation[0, 0] == pytest.approx(1) and abs(found.correlation[0, 1]) < 1
     assert found.case["contact.stiffness"] == found.values[1] and "standard error" in repr(found)
+    own = next(answer for answer in si.run(found.case).answers if answer["key"] == "largest_force")
+    assert found.alignment.total_error == pytest.approx(np.hypot(own["error"], own["body_error"]), rel=0.01)
     damped = quick.changed({"contact.damping": 0.05, "solver.method": "erk", "output.interval": 1e-6})
     signal = signal_of(si.run(damped, error_bars="off", body_errors=False), noise=0.01, end=3e-4)
     found = measured.fit(damped.changed({"contact.damping": 0.0}), signal, "contact.damping")

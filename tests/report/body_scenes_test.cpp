@@ -174,7 +174,7 @@ TEST(BodyErrorsOfScenes, OfZonesAndSubImpactsAreSumsOfTheirParts) {
   EXPECT_DOUBLE_EQ(*errors.error.zones[1].start, sum);
   EXPECT_GT(sum, 20e-6);
   EXPECT_LT(sum, 3e-3);
-  EXPECT_EQ(result.sub_impacts.front().start_body_error.value_or(0.0), 0.0);
+  EXPECT_EQ(result.sub_impacts.front().start_body_error, 0.0);
   EXPECT_GT(std::ranges::count_if(result.sub_impacts,
                                   [](const SubImpact& s) { return s.end_body_error > 0.0; }),
             3);

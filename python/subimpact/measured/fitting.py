@@ -13,7 +13,7 @@ import numpy as np
 from .._errors import CaseError, ResultsError
 from ..case import Case, as_case, keys as all_keys
 from ..result import Result
-from ..running import run
+from ..running import ErrorBars, run
 from .aligning import Alignment, align, column_of, curve_of, in_seconds, solve
 from .reading import Signal
 from .words import rounded
@@ -114,8 +114,12 @@ class _Runs:
     def __call__(self, x: Numbers) -> Result:
         return self._result(tuple(self.values(x).items()))
 
-    def _run(self, values: tuple[tuple[str, float], ...]) -> Result:
-        result = run(self.case.changed(dict(values)), error_bars="off", body_errors=False)
+    def with_errors(self, x: Numbers) -> Result:
+        """The run of the case itself, whose errors are those of the fitted one."""
+        return self._run(tuple(self.values(x).items()), error_bars=None, body_errors=True)
+
+    def _run(self, values: tuple[tuple[str, float], ...], error_bars: ErrorBars | None = "off", body_errors: bool = False) -> Result:
+        result = run(self.case.changed(dict(values)), error_bars=error_bars, body_errors=body_errors)
         self.n += 1
         if result.interrupted:
             raise KeyboardInterrupt
@@ -166,7 +170,7 @@ def fit(
     bounds     least and largest values by key, with or without units; the others are what the key allows
     progress   called with the number of runs and the root of the mean square of the difference, N
 
-    Every run is that of the case without error bars. Raises CaseError for keys that are no numbers or
+    Every run but the last, whose errors `alignment` compares with, is without error bars. Raises CaseError for keys that are no numbers or
     have no value, and ResultsError as `align` does, and for keys that the force does not depend on.
     """
     shift = in_seconds(shift)
@@ -202,4 +206,4 @@ def fit(
     gap = np.minimum(np.abs(found - ends[0]), np.abs(ends[1] - found))[:n]
     at_bound = tuple(key for key, distance in zip(start, gap) if distance < 1e-5)
     return Fit(tuple(start), np.array(list(values.values())), deviations * per_x, related,
-               align(runs(found[:n]), signal, shift, gain, low_pass, gauge), case.changed(values), runs.n, at_bound)
+               align(runs.with_errors(found[:n]), signal, shift, gain, low_pass, gauge), case.changed(values), runs.n, at_bound)

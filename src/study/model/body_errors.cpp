@@ -18,14 +18,17 @@
 namespace subimpact {
 namespace {
 
-constexpr double share_of_work = 0.12;  // of each horizon
+constexpr double share_of_work = 0.10;  // of each horizon
 constexpr double least_work = 2e6;      // some 10 ms
 constexpr double dearer = 1.5;          // an evaluation on a coarse mesh that yields
 constexpr double coarsest = 0.02;       // of the mesh of the run
+constexpr double near_ratio = 1.5;      // of two meshes, of which one does for both horizons
 constexpr double n_rows = 50.0;         // of which largest displacements are taken
 constexpr int most_cells = 241;         // where the mesh of the run does not do
 constexpr double times_parting = 2.0;   // horizon of what is decided early
 constexpr double most_energy_lost = 0.05;
+constexpr double too_far = 2.0;  // a coarse run from the run itself, over what it shall show
+constexpr double small = 0.1;    // of a sum of parts
 
 using Number = std::optional<double>;
 using Figure = Number StrikeFigures::*;
@@ -45,6 +48,7 @@ Number distance(const Number& a, const Number& b) {
 struct Changes {
   StrikeFigures figures;
   std::vector<Pair> rows;
+  StrikeFigures coarse = {};  // how far the runs that show them lie from the run itself
 
   // Calls `use` with each number of this one and of another.
   template <class Use>
@@ -68,6 +72,10 @@ struct Horizon {
   double work = 0.0;   // of a run
   std::optional<Result> base = {};
 };
+
+Number first_touch(const Result& run) {
+  return run.sub_impacts.empty() ? Number() : Number(run.sub_impacts.front().start);
+}
 
 // The opening after the contact that ends nearest to a time; 0 if there is none.
 double opening_near(double time, const Result& run) {
@@ -105,11 +113,13 @@ class Study {
   bool run() {
     choose_horizons();
     sum_ = at_least_ = unchanged();
+    std::vector<Changes> all;
     for (const BodyVariant& variant : variants_) {
-      Changes changes = changes_by(variant);
-      cap(changes.figures);
-      add(variant.kind, std::move(changes));
+      all.push_back(changes_by(variant));
+      cap(all.back().figures);
     }
+    for (const Figure figure : strike_figures) forget_hidden(figure, all);
+    for (std::size_t k = 0; k < all.size(); ++k) add(variants_[k].kind, std::move(all[k]));
     add_estimates();
     add_openings();
     errors_.error = sum_.figures;
@@ -145,13 +155,15 @@ class Study {
   // that time may take least_work or, if more, a run on the coarsest mesh worth one.
   void choose_horizons() {
     const double end = result_.outcome.time, work = counted_work(input_, result_);
+    const double of_modes = result_.used.decomposition;  // whatever the end
     double n_runs = 2.0;
     for (const BodyVariant& variant : variants_) {
       n_runs += static_cast<double>(variant.cases.size()) + (variant.base ? 1.0 : 0.0);
     }
     n_runs *= input_.strikes;
     const auto ratio_for = [&](double part, double most) {
-      const double share = most / (n_runs * part * work);  // that each run may take
+      const double of_run = of_modes + part * (work - of_modes);
+      const double share = most / (n_runs * of_run);  // that each run may take
       return share >= 1.0 || !mesh_order(input_) ? 1.0
                                                  : std::pow(share / dearer, 1.0 / usual_growth);
     };
@@ -167,8 +179,13 @@ class Study {
             static_cast<double>(mesh_count(refinement_->first())) / mesh_count(input_);
         early.ratio = std::max(early.ratio, std::min({first, ratio_for(part, most), 1.0}));
       }
-      if (early.end == end) whole.ratio = std::max(whole.ratio, early.ratio);
-      if (early.end < end && std::min(early.ratio, whole.ratio) < 1.0) horizons_.push_back(early);
+      if (early.end == end) {
+        whole.ratio = std::max(whole.ratio, early.ratio);
+      } else if (std::abs(std::log(whole.ratio / early.ratio)) < std::log(near_ratio)) {
+        whole.ratio = early.ratio;  // the same runs until then
+      } else {
+        horizons_.push_back(early);
+      }
     }
     horizons_.push_back(whole);
     for (Horizon& horizon : horizons_) {
@@ -245,31 +262,34 @@ class Study {
   void change(const Horizon& horizon, const Result& from, const Result& other, Changes& changes) {
     const bool is_whole = &horizon == &horizons_.back();
     const bool has_early = is_whole && horizons_.size() > 1;
-    const auto widen = [](Number& number, const Number& by) {
-      if (number) number = by ? Number(std::max(*number, *by)) : std::nullopt;
-    };
     const StrikeFigures base = figures_of(from), with = figures_of(other);
     const StrikeFigures base_early = figures_of(from, until_),
                         other_early = figures_of(other, until_);
     for (const Figure figure : strike_figures) {
       if (!(value().*figure)) continue;
+      Number& number = changes.figures.*figure;
       const bool early = decided(figure) <= until_;
-      if (early ? has_early : !is_whole) continue;
-      Number by =
-          distance((early ? base_early : base).*figure, (early ? other_early : with).*figure);
+      const bool is_later = early && has_early && (!number || exceeds(figure, with, other_early));
+      if (early ? has_early && !is_later : !is_whole) continue;
+      const StrikeFigures& one = early && !is_later ? base_early : base;
+      const StrikeFigures& two = early && !is_later ? other_early : with;
+      Number by = distance(one.*figure, two.*figure);
       // Coarse meshes bias the force, less so its ratio.
-      const double force = (early ? base_early : base).peak_force.value_or(0.0);
+      const double force = one.peak_force.value_or(0.0);
       if (by && figure == &StrikeFigures::peak_force && force > 0.0) {
         *by *= *value().peak_force / force;
       }
-      widen(changes.figures.*figure, by);
+      number = is_later ? std::max(number, by) : by;
+      Number& coarse = changes.coarse.*figure;
+      coarse = std::max(coarse, distance(one.*figure, value().*figure));
     }
     const std::vector<ZoneFigures>&before = base.zones, &after = with.zones;
     for (std::size_t z = 0; is_whole && z < changes.figures.zones.size(); ++z) {
       const bool is_there = z < before.size() && z < after.size();
       for (const auto member : zone_figures) {
-        widen(changes.figures.zones[z].*member,
-              is_there ? distance(before[z].*member, after[z].*member) : std::nullopt);
+        if (!(value().zones[z].*member)) continue;
+        changes.figures.zones[z].*member =
+            is_there ? distance(before[z].*member, after[z].*member) : std::nullopt;
       }
     }
     const Counterparts in_base = counterparts(result_.sub_impacts, from.sub_impacts),
@@ -280,33 +300,64 @@ class Study {
       const SubImpact* one = in_base.of[i];
       const SubImpact* two =
           one ? in_other.of[static_cast<std::size_t>(one - from.sub_impacts.data())] : nullptr;
-      widen(changes.rows[i][0], two ? distance(one->start, two->start) : std::nullopt);
-      widen(changes.rows[i][1], two ? distance(one->end, two->end) : std::nullopt);
+      changes.rows[i][0] = two ? distance(one->start, two->start) : std::nullopt;
+      if (i == 0) changes.rows[i][0] = distance(first_touch(from), first_touch(other));
+      if (!result_.sub_impacts[i].end) continue;
+      changes.rows[i][1] = two ? distance(one->end, two->end) : std::nullopt;
     }
   }
 
+  // Whether a largest number of a whole run comes after what is decided early.
+  static bool exceeds(Figure figure, const StrikeFigures& whole, const StrikeFigures& early) {
+    const bool is_largest =
+        figure == &StrikeFigures::peak_force || figure == &StrikeFigures::max_indentation;
+    return is_largest && whole.*figure > early.*figure;
+  }
+
   Changes changes_by(const BodyVariant& variant) {
-    Changes changes = unchanged();
-    Changes unknown{{}, std::vector<Pair>(changes.rows.size())};
-    unknown.figures.zones.resize(changes.figures.zones.size());
+    Changes unknown{{}, std::vector<Pair>(result_.sub_impacts.size())};
+    unknown.figures.zones.resize(value().zones.size());
     if (variant.cases.empty()) return unknown;
-    double of_opening = 0.0;
+    std::vector<std::optional<Result>> own;
     for (const Horizon& horizon : horizons_) {
-      const auto own = variant.base ? run_of(on_cells(*variant.base, horizon)) : std::nullopt;
-      const std::optional<Result>& base = variant.base ? own : horizon.base;
-      for (const Case& other : variant.cases) {
+      if (variant.base) own.push_back(run_of(on_cells(*variant.base, horizon)));
+    }
+    Changes largest = unchanged();
+    double of_opening = 0.0;
+    for (const Case& other : variant.cases) {
+      Changes changes = unchanged();
+      for (std::size_t h = 0; h < horizons_.size(); ++h) {
+        const Horizon& horizon = horizons_[h];
+        const std::optional<Result>& base = variant.base ? own[h] : horizon.base;
         const auto run =
             base ? run_of(variant.base ? on_cells(other, horizon) : on_mesh(other, horizon))
                  : std::nullopt;
         if (!run) return unknown;
         change(horizon, *base, *run, changes);
-        if (!value().parting || &horizon != &horizons_.front()) continue;
+        if (!value().parting || h > 0) continue;
         of_opening = std::max(of_opening, std::abs(opening_near(*value().parting, *run) -
                                                    opening_near(*value().parting, *base)));
       }
+      largest.zip(changes, [](Number& most, const Number& by) {
+        if (most) most = by ? Number(std::max(*most, *by)) : std::nullopt;
+      });
+      for (const Figure figure : strike_figures) {
+        largest.coarse.*figure = std::max(largest.coarse.*figure, changes.coarse.*figure);
+      }
     }
     change_of_opening_ += of_opening;
-    return changes;
+    return largest;
+  }
+
+  // Changes that coarse runs cannot show, for they differ from the run itself by more than these
+  // and than what is small beside all of them.
+  static void forget_hidden(Figure figure, std::vector<Changes>& all) {
+    double sum = 0.0;
+    for (const Changes& one : all) sum += (one.figures.*figure).value_or(0.0);
+    for (Changes& one : all) {
+      Number& change = one.figures.*figure;
+      if (change && one.coarse.*figure > too_far * std::max(*change, small * sum)) change.reset();
+    }
   }
 
   // No more than energy and momentum allow.

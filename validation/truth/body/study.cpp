@@ -8,9 +8,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -50,10 +50,17 @@ struct Found {
   std::string lines;
 };
 
+// Processor time of this thread.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 double seconds_of(const std::function<void()>& task) {
-  const auto begun = std::chrono::steady_clock::now();
+  const double begun = processor_seconds();
   task();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return processor_seconds() - begun;
 }
 
 // On the mesh of the run, or where that cannot model the variant on one as fine.
