@@ -18,7 +18,7 @@
 namespace subimpact {
 namespace {
 
-constexpr double share_of_work = 0.10;  // of each horizon
+constexpr double share_of_work = 0.08;  // of each horizon
 constexpr double least_work = 2e6;      // some 10 ms
 constexpr double dearer = 1.5;          // an evaluation on a coarse mesh that yields
 constexpr double coarsest = 0.02;       // of the mesh of the run
@@ -27,7 +27,7 @@ constexpr double n_rows = 50.0;         // of which largest displacements are ta
 constexpr int most_cells = 241;         // where the mesh of the run does not do
 constexpr double times_parting = 2.0;   // horizon of what is decided early
 constexpr double most_energy_lost = 0.05;
-constexpr double too_far = 2.0;  // a coarse run from the run itself, over what it shall show
+constexpr double too_far = 3.0;  // a coarse run from the run itself, over what it shall show
 constexpr double small = 0.1;    // of a sum of parts
 
 using Number = std::optional<double>;
@@ -112,16 +112,15 @@ class Study {
   /// Whether it was not stopped.
   bool run() {
     choose_horizons();
-    sum_ = at_least_ = unchanged();
-    std::vector<Changes> all;
     for (const BodyVariant& variant : variants_) {
-      all.push_back(changes_by(variant));
-      cap(all.back().figures);
+      parts_.emplace_back(variant.kind, changes_by(variant));
+      cap(parts_.back().second.figures);
     }
-    for (const Figure figure : strike_figures) forget_hidden(figure, all);
-    for (std::size_t k = 0; k < all.size(); ++k) add(variants_[k].kind, std::move(all[k]));
     add_estimates();
     add_openings();
+    for (const Figure figure : strike_figures) forget_hidden(figure);
+    sum_ = at_least_ = unchanged();
+    for (auto& [kind, changes] : parts_) sum_up(kind, changes);
     errors_.error = sum_.figures;
     errors_.at_least = at_least_.figures;
     cap(errors_.error);
@@ -351,12 +350,13 @@ class Study {
 
   // Changes that coarse runs cannot show, for they differ from the run itself by more than these
   // and than what is small beside all of them.
-  static void forget_hidden(Figure figure, std::vector<Changes>& all) {
+  void forget_hidden(Figure figure) {
     double sum = 0.0;
-    for (const Changes& one : all) sum += (one.figures.*figure).value_or(0.0);
-    for (Changes& one : all) {
-      Number& change = one.figures.*figure;
-      if (change && one.coarse.*figure > too_far * std::max(*change, small * sum)) change.reset();
+    for (const auto& [kind, changes] : parts_) sum += (changes.figures.*figure).value_or(0.0);
+    for (auto& [kind, changes] : parts_) {
+      Number& change = changes.figures.*figure;
+      const double least = std::max(change.value_or(0.0), small * sum);
+      if (changes.coarse.*figure > too_far * least) change.reset();
     }
   }
 
@@ -372,7 +372,7 @@ class Study {
     limit(changes.striker_velocity, velocity + std::abs(result_.striker_velocity));
   }
 
-  void add(BodyPart kind, Changes changes) {
+  void sum_up(BodyPart kind, Changes& changes) {
     const auto sum = [&](Changes& to, bool needs_all) {
       to.zip(changes, [&](Number& total, const Number& change) {
         if (total && (change || needs_all))
@@ -381,7 +381,7 @@ class Study {
     };
     sum(sum_, true);
     sum(at_least_, false);
-    errors_.parts.push_back({kind, std::move(changes.figures)});
+    errors_.parts.push_back({kind, changes.figures});
   }
 
   // The largest rotation (rad) up to a time (s); NaN: not known.
@@ -430,17 +430,17 @@ class Study {
     const double parting = value().parting.value_or(0.0);
     const double at_peak = rotation_until(peak);
     const double at_parting = parting > peak ? rotation_until(parting) : at_peak;
-    add(BodyPart::finite_rotations, by_share([&](double time) {
-          const double rotation = time <= peak      ? at_peak
-                                  : time <= parting ? at_parting
-                                                    : result_.largest_rotation;
-          return rotation * rotation;
-        }));
+    parts_.emplace_back(BodyPart::finite_rotations, by_share([&](double time) {
+                          const double rotation = time <= peak      ? at_peak
+                                                  : time <= parting ? at_parting
+                                                                    : result_.largest_rotation;
+                          return rotation * rotation;
+                        }));
     if (!yields(result_)) return;
     Changes hinge = unchanged();
     const double rotation = largest_magnitude(result_.plastic_zones, &PlasticZone::rotation);
     if (value().permanent_set) hinge.figures.permanent_set = rotation * beam.height() / 8.0;
-    add(BodyPart::hinge_length, std::move(hinge));
+    parts_.emplace_back(BodyPart::hinge_length, std::move(hinge));
   }
 
   // How far the parting moves if openings are wrong by as much as the variants change that one.
@@ -454,7 +454,7 @@ class Study {
     }
     Changes openings = unchanged();
     openings.figures.parting = furthest;
-    add(BodyPart::thin_openings, std::move(openings));
+    parts_.emplace_back(BodyPart::thin_openings, std::move(openings));
   }
 
   Case input_;
@@ -463,6 +463,7 @@ class Study {
   std::optional<Refinement> refinement_;  // none: a rigid beam
   std::vector<BodyVariant> variants_;
   BodyErrors errors_;
+  std::vector<std::pair<BodyPart, Changes>> parts_;
   Changes sum_, at_least_;
   double energy_ = 0.0, largest_force_ = 0.0;  // J, N
   double touch_ = 0.0;                         // s
