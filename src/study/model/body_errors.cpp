@@ -9,24 +9,14 @@
 #include "case/problem.h"
 #include "study/judgement/totals.h"
 #include "study/model/body_parts.h"
+#include "study/model/body_runs.h"
 #include "study/model/coarse_strike.h"
 #include "study/model/contact_limits.h"
-#include "study/refinement/refinement.h"
 #include "subimpact/study/judgement/match.h"
-#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {
 
-constexpr double share_of_work = 0.08;  // of each horizon
-constexpr double least_work = 2e6;      // some 10 ms
-constexpr double dearer = 1.5;          // an evaluation on a coarse mesh that yields
-constexpr double coarsest = 0.02;       // of the mesh of the run
-constexpr double near_ratio = 1.5;      // of two meshes, of which one does for both horizons
-constexpr double n_rows = 50.0;         // of which largest displacements are taken
-constexpr int most_cells = 241;         // where the mesh of the run does not do
-constexpr double times_parting = 2.0;   // horizon of what is decided early
-constexpr double most_energy_lost = 0.05;
 constexpr double too_far = 3.0;  // a coarse run from the run itself, over what it shall show
 constexpr double small = 0.1;    // of a sum of parts
 
@@ -65,14 +55,6 @@ struct Changes {
   }
 };
 
-// Runs on one mesh up to a time.
-struct Horizon {
-  double end = 0.0;    // s
-  double ratio = 1.0;  // of the mesh over that of the run
-  double work = 0.0;   // of a run
-  std::optional<Result> base = {};
-};
-
 Number first_touch(const Result& run) {
   return run.sub_impacts.empty() ? Number() : Number(run.sub_impacts.front().start);
 }
@@ -102,16 +84,16 @@ class Study {
     touch_ = result.sub_impacts.front().start;
     energy_ = std::max(result.used.initial_energy, 0.0) + std::max(result.final_energies.work, 0.0);
     largest_force_ = largest_possible_force(with_elastic_contact(input_), result);
-    try {
-      if (mesh_order(input_)) refinement_.emplace(input_, OpenChoices());
-    } catch (const InvalidCase&) {  // its mesh cannot be resized
-    }
     variants_ = body_variants(input_, given, yields(result));
   }
 
   /// Whether it was not stopped.
   bool run() {
-    choose_horizons();
+    double n_runs = 2.0;
+    for (const BodyVariant& variant : variants_) {
+      n_runs += static_cast<double>(variant.cases.size()) + (variant.base ? 1.0 : 0.0);
+    }
+    runs_.emplace(input_, result_, value().parting, n_runs, progress_);
     for (const BodyVariant& variant : variants_) {
       parts_.emplace_back(variant.kind, changes_by(variant));
       cap(parts_.back().second.figures);
@@ -125,7 +107,7 @@ class Study {
     errors_.at_least = at_least_.figures;
     cap(errors_.error);
     cap(errors_.at_least);
-    return !is_stopped_;
+    return !runs_->is_stopped();
   }
 
   void store(Result& result) {
@@ -150,102 +132,6 @@ class Study {
     return changes;
   }
 
-  // Meshes by counted work, that to the parting not by the end of the run: what is decided by twice
-  // that time may take least_work or, if more, a run on the coarsest mesh worth one.
-  void choose_horizons() {
-    const double end = result_.outcome.time, work = counted_work(input_, result_);
-    const double of_modes = result_.used.decomposition;  // whatever the end
-    double n_runs = 2.0;
-    for (const BodyVariant& variant : variants_) {
-      n_runs += static_cast<double>(variant.cases.size()) + (variant.base ? 1.0 : 0.0);
-    }
-    n_runs *= input_.strikes;
-    const auto ratio_for = [&](double part, double most) {
-      const double of_run = of_modes + part * (work - of_modes);
-      const double share = most / (n_runs * of_run);  // that each run may take
-      return share >= 1.0 || !mesh_order(input_) ? 1.0
-                                                 : std::pow(share / dearer, 1.0 / usual_growth);
-    };
-    const double most = share_of_work * work_with_others * input_.strikes * work;
-    const double of_all = std::max(most, least_work);
-    Horizon whole{end, ratio_for(1.0, of_all), of_all / n_runs};
-    if (value().parting && input_.strikes == 1) {
-      until_ = touch_ + times_parting * (*value().parting - touch_);
-      const double part = (until_ - touch_) / (end - touch_);
-      Horizon early{std::min(until_, end), ratio_for(part, least_work), least_work / n_runs};
-      if (refinement_) {
-        const double first =
-            static_cast<double>(mesh_count(refinement_->first())) / mesh_count(input_);
-        early.ratio = std::max(early.ratio, std::min({first, ratio_for(part, most), 1.0}));
-      }
-      if (early.end == end) {
-        whole.ratio = std::max(whole.ratio, early.ratio);
-      } else if (std::abs(std::log(whole.ratio / early.ratio)) < std::log(near_ratio)) {
-        whole.ratio = early.ratio;  // the same runs until then
-      } else {
-        horizons_.push_back(early);
-      }
-    }
-    horizons_.push_back(whole);
-    for (Horizon& horizon : horizons_) {
-      const bool is_run = horizon.ratio == 1.0 && horizon.end == end && input_.strikes == 1;
-      horizon.base = is_run ? std::optional(result_) : run_of(on_mesh(input_, horizon));
-    }
-  }
-
-  std::optional<Case> on_cells(const Case& of, const Horizon& horizon) const {
-    const int cells = affordable_cells(of, horizon.end, most_cells, horizon.work);
-    if (cells == 0) return std::nullopt;
-    Case other = coarse_case(of, cells, horizon.end);
-    other.output.opening = input_.output.opening;
-    other.output.zone_gap = input_.output.zone_gap;
-    return other;
-  }
-
-  // Of the mesh and method of the run, but for a beam that these do not suit.
-  std::optional<Case> on_mesh(const Case& of, const Horizon& horizon) const {
-    const bool was_rigid = !descriptor_of(input_.model.mesh).bends;
-    const bool bends = descriptor_of(of.model.mesh).bends && !of.scene.beam.fixed;
-    if (was_rigid && bends) return on_cells(of, horizon);
-    Case other = of;
-    if (horizon.ratio < 1.0) {
-      if (horizon.ratio < coarsest || !refinement_) return std::nullopt;
-      const std::optional<Case> resized = refinement_->resized(of, horizon.ratio);
-      if (!resized) return std::nullopt;
-      other = *resized;
-    }
-    const auto& suits = descriptor_of(other.model.mesh).suits;
-    if (!suits(other.scene.beam)) {
-      other.model.elements = 2 * (other.model.elements / 4 + 1);
-      other.model.mesh = MeshKind::spectral;
-    }
-    other.scatter.clear();
-    other.strikes = 1;
-    other.accuracy = {};
-    other.accuracy.energy = 1.0;  // what is lost is judged here
-    other.output.keep_no_rows();
-    other.output.interval = horizon.end / n_rows;
-    other.output.shapes = other.end_time = horizon.end;
-    // Without gravity nothing changes after the last contact.
-    const bool weighs = of.scene.gravity != 0.0 || of.scene.beam.has_loads();
-    other.stop = weighs ? StopRule::end_time : StopRule::no_more_contact;
-    return other;
-  }
-
-  // The last one of as many strikes as the beam receives.
-  std::optional<Result> run_of(std::optional<Case> next) {
-    std::optional<Result> run;
-    for (int strike = 1; next && strike <= input_.strikes && !is_stopped_; ++strike) {
-      run = coarse_run(*next, progress_);
-      is_stopped_ = run && run->outcome.kind == OutcomeKind::stopped;
-      const bool is_sound =
-          run && run->outcome.completed() && run->max_energy_error < most_energy_lost;
-      if (!is_sound) return std::nullopt;
-      next->parts.start = run->end_state;
-    }
-    return is_stopped_ ? std::nullopt : std::move(run);
-  }
-
   // The time (s) at which a figure is decided; infinite: at the end.
   double decided(Figure figure) const {
     const auto largest = [&](double SubImpact::*number) {
@@ -258,16 +144,17 @@ class Study {
   }
 
   // Of one run beside the base of its horizon. What does not lie within the horizon stays as it is.
-  void change(const Horizon& horizon, const Result& from, const Result& other, Changes& changes) {
-    const bool is_whole = &horizon == &horizons_.back();
-    const bool has_early = is_whole && horizons_.size() > 1;
+  void change(const BodyRuns::Horizon& horizon, const Result& from, const Result& other,
+              Changes& changes) {
+    const bool is_whole = &horizon == &runs_->horizons().back();
+    const bool has_early = is_whole && runs_->horizons().size() > 1;
     const StrikeFigures base = figures_of(from), with = figures_of(other);
-    const StrikeFigures base_early = figures_of(from, until_),
-                        other_early = figures_of(other, until_);
+    const StrikeFigures base_early = figures_of(from, runs_->until()),
+                        other_early = figures_of(other, runs_->until());
     for (const Figure figure : strike_figures) {
       if (!(value().*figure)) continue;
       Number& number = changes.figures.*figure;
-      const bool early = decided(figure) <= until_;
+      const bool early = decided(figure) <= runs_->until();
       const bool is_later = early && has_early && (!number || exceeds(figure, with, other_early));
       if (early ? has_early && !is_later : !is_whole) continue;
       const StrikeFigures& one = early && !is_later ? base_early : base;
@@ -294,7 +181,7 @@ class Study {
     const Counterparts in_base = counterparts(result_.sub_impacts, from.sub_impacts),
                        in_other = counterparts(from.sub_impacts, other.sub_impacts);
     for (std::size_t i = 0; i < changes.rows.size(); ++i) {
-      const bool ends_early = result_.end_of(result_.sub_impacts[i]) <= until_;
+      const bool ends_early = result_.end_of(result_.sub_impacts[i]) <= runs_->until();
       if (ends_early ? has_early : !is_whole) continue;
       const SubImpact* one = in_base.of[i];
       const SubImpact* two =
@@ -318,18 +205,18 @@ class Study {
     unknown.figures.zones.resize(value().zones.size());
     if (variant.cases.empty()) return unknown;
     std::vector<std::optional<Result>> own;
-    for (const Horizon& horizon : horizons_) {
-      if (variant.base) own.push_back(run_of(on_cells(*variant.base, horizon)));
+    for (const BodyRuns::Horizon& horizon : runs_->horizons()) {
+      if (variant.base) own.push_back(runs_->on_cells(*variant.base, horizon));
     }
     Changes largest = unchanged();
     double of_opening = 0.0;
     for (const Case& other : variant.cases) {
       Changes changes = unchanged();
-      for (std::size_t h = 0; h < horizons_.size(); ++h) {
-        const Horizon& horizon = horizons_[h];
+      for (std::size_t h = 0; h < runs_->horizons().size(); ++h) {
+        const BodyRuns::Horizon& horizon = runs_->horizons()[h];
         const std::optional<Result>& base = variant.base ? own[h] : horizon.base;
         const auto run =
-            base ? run_of(variant.base ? on_cells(other, horizon) : on_mesh(other, horizon))
+            base ? variant.base ? runs_->on_cells(other, horizon) : runs_->on_mesh(other, horizon)
                  : std::nullopt;
         if (!run) return unknown;
         change(horizon, *base, *run, changes);
@@ -388,9 +275,9 @@ class Study {
   double rotation_until(double time) {
     if (time <= touch_) return 0.0;
     if (time >= result_.outcome.time || input_.strikes > 1) return result_.largest_rotation;
-    Horizon until = horizons_.front();
+    BodyRuns::Horizon until = runs_->horizons().front();
     until.end = time;
-    const std::optional<Result> run = run_of(on_mesh(input_, until));
+    const std::optional<Result> run = runs_->on_mesh(input_, until);
     return run ? run->largest_rotation : NAN;
   }
 
@@ -460,17 +347,14 @@ class Study {
   Case input_;
   const Result& result_;
   const Progress& progress_;
-  std::optional<Refinement> refinement_;  // none: a rigid beam
   std::vector<BodyVariant> variants_;
+  std::optional<BodyRuns> runs_;
   BodyErrors errors_;
   std::vector<std::pair<BodyPart, Changes>> parts_;
   Changes sum_, at_least_;
   double energy_ = 0.0, largest_force_ = 0.0;  // J, N
   double touch_ = 0.0;                         // s
-  double until_ = HUGE_VAL;  // s: what is decided by then does not depend on the end of the run
-  std::vector<Horizon> horizons_;  // the last one is the whole run
-  bool is_stopped_ = false;
-  double change_of_opening_ = 0.0;  // m, of the parting
+  double change_of_opening_ = 0.0;             // m, of the parting
 };
 
 }  // namespace

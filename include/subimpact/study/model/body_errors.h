@@ -13,8 +13,9 @@ namespace subimpact {
 /// Most come from runs with one thing changed, on meshes of the run's own kind and with a fifth of
 /// the counted work of the run and those beside it, at least some 4e6: to twice the time of the
 /// parting for what is decided by then, which so does not depend on the end, and to the end. A
-/// change is not known where such a run failed, lost a twentieth of the energy or has no such
-/// number. None exceeds what the energy allows.
+/// change is not known where such a run failed, lost a twentieth of the energy, has no such number,
+/// or lies from the run itself by three times the change and by three tenths of all changes. None
+/// exceeds what the energy allows.
 ///
 /// Nothing is set where `progress` stops it, for runs that did not complete or without contact, on
 /// an earlier state, and with parts of the caller's own.
