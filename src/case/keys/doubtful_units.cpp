@@ -211,16 +211,21 @@ void add_pulls(const Beam& beam, const Result& result, std::vector<std::string>&
   for (const auto& forces : result.reactions) {
     if (forces) largest = std::max({largest, forces->largest.value, -forces->smallest.value});
   }
-  for (std::size_t end = 0; end < result.reactions.size(); ++end) {
+  std::optional<std::size_t> pulls;  // the end that does most
+  for (const std::size_t end : {0, 1}) {
     const auto& forces = result.reactions[end];
     if (!forces || beam.ends[end] != EndSupport::pinned) continue;
-    if (!(forces->largest.value > least_pull * largest)) continue;
-    sentences.push_back(fmt::format(
-        "the support at x = {} pulls the beam by up to {} N, at {:.4g} us: a beam that only "
-        "rests on it would lift off there, which the model leaves out",
-        end == 0 ? "0" : "length", with_significant(forces->largest.value, 3),
-        us * forces->largest.time));
+    const double pull = forces->largest.value;
+    const bool is_most = !pulls || pull > result.reactions[*pulls]->largest.value;
+    if (pull > least_pull * largest && is_most) pulls = end;
   }
+  if (!pulls) return;
+  const auto& pull = result.reactions[*pulls]->largest;
+  sentences.push_back(
+      fmt::format("a support pulls the beam by up to {} N, at x = {} at {:.4g} us: a beam that "
+                  "only rests on it "
+                  "would lift off there, which the model leaves out",
+                  with_significant(pull.value, 3), *pulls == 0 ? "0" : "length", us * pull.time));
 }
 
 }  // namespace
@@ -251,7 +256,7 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
     if (beyond) sentences.push_back(fmt::format(text, values...));
   };
   add(result.largest_rotation > largest_rotation,
-      "{} by up to {:.2g} rad: the model is for small rotations (below {} rad)",
+      "{} by up to {:.2g} rad: the model is for rotations below {} rad",
       is_rigid ? "the beam turns" : "sections turn", result.largest_rotation, largest_rotation);
   const double thickness = beam.height() / beam.length;
   add(!is_rigid && beam.shears() && thickness > thickest_with_shear,

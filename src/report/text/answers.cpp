@@ -339,15 +339,18 @@ void add_counts(const Result& result, Answer& answer) {
   }
 }
 
-// ... with its total error: "14 +- 3 kN".
+// ... with its total error: "13.6 +- 3.2 kN".
 std::string with_total_error(const Answer& answer) {
   if (!answer.value) return "an amount that is not known";
   const Measure& measure = words_of(answer.key).measure;
   if (answer.error && answer.body_error) {
-    const Total total{*answer.value, std::hypot(*answer.error, *answer.body_error)};
-    const ReadUnit unit = unit_for(total, measure);
-    const auto [number, error, is_lost] = number_and_error(unit, total, measure.most_digits);
-    return with_unit(is_lost ? number : number + " +- " + error, unit);
+    const double error = std::hypot(*answer.error, *answer.body_error);
+    const ReadUnit unit = unit_for({*answer.value, error}, measure);
+    const double place = std::floor(std::log10(std::max(unit.per_si * error, 1e-9)));
+    return with_unit(
+        with_decimals(unit.per_si * *answer.value, std::max(1 - static_cast<int>(place), 0)) +
+            " +- " + with_digits(unit.per_si * error, 2),
+        unit);
   }
   return rough_text({*answer.value, {}}, measure) + " (+- not known)";
 }
@@ -379,7 +382,7 @@ std::string verdict_words(const Result& result) {
   }
   static constexpr std::pair<Contact, const char*> states[] = {
       {Contact::over, "contact is over"},
-      {Contact::may_not_be_over, "contact may not be over"},
+      {Contact::may_not_be_over, "may not be over"},
       {Contact::not_over, "still in contact"},
       {Contact::rests, "in the end they rest on each other"}};
   const auto state =

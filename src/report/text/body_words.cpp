@@ -15,19 +15,16 @@ constexpr Words words_of_parts[] = {
      "give beam.shear_coefficient where it is known better than to 2 %"},
     {BodyPart::poisson, "Poisson's ratio", "give beam.poisson or beam.material"},
     {BodyPart::bending, "bending", "model a beam that bends"},
-    {BodyPart::contact_law, "contact law",
-     "measure force over indentation and give it: contact.law = \"curve\""},
+    {BodyPart::contact_law, "contact law", "give the measured curve: contact.law = \"curve\""},
     {BodyPart::nose, "nose", "give contact.striker_modulus and contact.striker_poisson"},
-    {BodyPart::gravity, "gravity", "give scene.gravity"},
-    {BodyPart::width, "width of the hinge",
-     "no theory of beams says how far it is held sideways: compare one measured set"},
+    {BodyPart::gravity, "gravity", "scene.gravity = 9.81, or 0 for a level strike"},
+    {BodyPart::width, "width of the hinge", "measure the permanent set once"},
     {BodyPart::finite_rotations, "finite rotations",
-     "the model is for small ones: strike more softly, or compare with a solid"},
-    {BodyPart::stretching, "stretching",
-     "say whether the ends can approach each other: beam.axial"},
+     "strike more softly, or compare with a 3-D solid"},
+    {BodyPart::stretching, "stretching of beam",
+     "beam.axial = \"held\" or \"free\", as the supports are"},
     {BodyPart::hinge_length, "length of the hinge", "no theory of beams knows it"},
-    {BodyPart::thin_openings, "thin openings",
-     "no theory of beams knows gaps so thin: count them as closed (--opening 10um)"}};
+    {BodyPart::thin_openings, "thin openings", "count gaps so thin as closed: --opening 10um"}};
 
 const Words& words_of(BodyPart part) {
   return *std::ranges::find(words_of_parts, part, &Words::part);

@@ -46,6 +46,7 @@ std::string time_or_never(const std::optional<double>& time) {
 
 constexpr double felt = 0.2;           // share of an error of the body
 constexpr std::size_t most_zones = 4;  // with a row of their own
+constexpr std::size_t most_named = 3;  // answers beside a part
 
 // A row of the table of answers.
 struct Row {
@@ -82,7 +83,7 @@ std::vector<Row> rows_of(const Result& result, bool verbose) {
 // One answer a row, with both of its errors.
 std::string answer_table(const Result& result, bool verbose) {
   std::vector<Row> rows = rows_of(result, verbose);
-  rows.insert(rows.begin(), {"", "", "+- computed", "+- body", "mostly of"});
+  rows.insert(rows.begin(), {"", "", "+- computed", "+- real beam", "mostly of"});
   const auto width_of = [&](std::string Row::*cell) {
     return std::invoke(cell, *std::ranges::max_element(
                                  rows, {}, [&](const Row& row) { return (row.*cell).size(); }))
@@ -100,23 +101,35 @@ std::string answer_table(const Result& result, bool verbose) {
   return table;
 }
 
-// The parts that matter for an answer that is shown, each once, with what to do about it; then what
-// is in no error.
+// The parts that matter for answers that are shown, with what to do about each and which answers
+// gain; then what is in no error.
 std::string body_words(const Result& result, bool verbose) {
-  std::vector<Answer::Part> felt_parts;
+  struct Felt {
+    Answer::Part part;
+    std::vector<std::string> answers;
+  };
+  std::vector<Felt> felt_parts;
   for (const Answer& answer : result.answers) {
+    if (!is_shown(answer, verbose)) continue;
     double sum = 0.0;
     for (const Answer::Part& part : answer.parts) sum += part.change.value_or(0.0);
     for (const Answer::Part& part : answer.parts) {
       if (part.change && !(*part.change > felt * sum)) continue;
-      if (std::ranges::count(felt_parts, part.kind, &Answer::Part::kind) == 0) {
-        felt_parts.push_back(part);
-        if (!part.change) felt_parts.back().remedy = "not known here; " + part.remedy;
-      }
+      const auto of_kind = [&](const Felt& other) { return other.part.kind == part.kind; };
+      auto found = std::ranges::find_if(felt_parts, of_kind);
+      if (found == felt_parts.end()) found = felt_parts.insert(found, {part, {}});
+      found->answers.push_back(answer.label);
+      if (!part.change) found->answers.back() += ", where it is not known";
     }
   }
   std::string text;
-  for (const Answer::Part& part : felt_parts) text += labelled(part.label, part.remedy);
+  for (auto& [part, answers] : felt_parts) {
+    if (answers.size() > most_named) {
+      answers.resize(most_named);
+      answers.emplace_back("...");
+    }
+    text += labelled(part.label, fmt::format("{} ({})", part.remedy, fmt::join(answers, ", ")));
+  }
   if (verbose) {
     for (const Answer& answer : result.answers) {
       std::string words;
@@ -127,7 +140,7 @@ std::string body_words(const Result& result, bool verbose) {
     }
   }
   if (result.body_errors && result.verdict.beam == StrikeVerdict::Beam::bent) {
-    text += labelled("in no error", "rates of strain, the length of the hinge but in the set");
+    text += labelled("in no error", "strain rates; length of the hinge, but for the permanent set");
   }
   return text;
 }

@@ -329,7 +329,7 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
     if (quantity.value != in<&SubImpact::end> || !std::ranges::any_of(all, has_body_error))
       continue;
     std::tie(texts, width) = column_texts(body_cells(all, column.unit), plus_minus);
-    add_column({"+- body", column.unit.name, least_number_width}, std::move(texts), width);
+    add_column({"+- real", column.unit.name, least_number_width}, std::move(texts), width);
   }
   return table;
 }

@@ -51,8 +51,7 @@ void BodyRuns::choose_horizons(const std::optional<double>& parting, double n_ru
   const auto ratio_for = [&](double part, double most) {
     const double of_run = of_modes + part * (work - of_modes);
     const double share = most / (n_runs * of_run);  // that each run may take
-    return share >= 1.0 || !mesh_order(input_) ? 1.0
-                                               : std::pow(share / dearer, 1.0 / usual_growth);
+    return share >= 1.0 || !mesh_order(input_) ? 1.0 : std::pow(share / dearer, 1.0 / usual_growth);
   };
   const double most = share_of_work * work_with_others * input_.strikes * work;
   const double of_all = std::max(most, least_work);

@@ -158,12 +158,12 @@ TEST(SubImpactTable, WithErrorsLargerThanTheTimesStillHasARowPerSubImpact) {
 
 TEST(SubImpactTable, HasTheLargerErrorOfTheBodyOfStartAndEndWhereItIsKnown) {
   Result result = sample_result_with_errors(3);
-  expect_not_in(sub_impact_table(result), "+- body");
+  expect_not_in(sub_impact_table(result), "+- real");
   result.sub_impacts[0].end_body_error = 12.4e-6;
   result.sub_impacts[1].start_body_error = 30e-6;
   result.sub_impacts[1].end_body_error = 20e-6;
   const SubImpactRows rows = sub_impact_rows(result);
-  ASSERT_EQ(rows.columns.at(3).name, std::string_view("+- body"));
+  ASSERT_EQ(rows.columns.at(3).name, std::string_view("+- real"));
   EXPECT_EQ(rows.rows[0].cells.at(3), "12");
   EXPECT_EQ(rows.rows[1].cells.at(3), "30");
   EXPECT_EQ(rows.rows[2].cells.at(3), "  ");
