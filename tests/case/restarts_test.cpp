@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "linear_case.h"
 #include "rigid_case.h"
 #include "runs.h"
 #include "subimpact/case/case_keys.h"
@@ -72,6 +73,38 @@ TEST(Restarts, AtCornersBesideRowsOneUlpAway) {
       EXPECT_TRUE(result.outcome.completed())
           << to_string(method) << ' ' << corner << ": " << result.outcome.message;
       EXPECT_LT(result.max_energy_error, 1e-6) << to_string(method) << ' ' << corner;
+    }
+  }
+}
+
+TEST(Ends, AtAnEventOrTwoUlpBesideItHaveNoRowThatTheWholeRunLacks) {
+  for (const ContactKind kind : {ContactKind::linear, ContactKind::foundation}) {
+    for (const Method method : {Method::nystrom, Method::exponential, Method::dirk}) {
+      Case input = linear_case(MeshKind::hermite, 8, 0.5, EndSupport::free);
+      input.scene.contact.kind = kind;
+      input.scene.contact.stiffness.reset();
+      if (kind == ContactKind::linear) input.scene.contact.stiffness = 2e7;
+      input.solver.method = method;
+      input.solver.rtol = 1e-8;
+      const Result whole = completed(input);
+      std::vector<double> times;
+      for (const SubImpact& s : whole.sub_impacts) {
+        if (s.start > 0.0) times.push_back(s.start);
+        if (s.end) times.push_back(*s.end);
+      }
+      ASSERT_GE(times.size(), 3u);
+      for (const double event : times) {
+        double end = std::nextafter(std::nextafter(event, 0.0), 0.0);
+        for (int ulp = -2; ulp <= 2; ++ulp, end = std::nextafter(end, 1.0)) {
+          input.end_time = end;
+          const Result cut = completed(input);
+          ASSERT_LE(cut.sub_impacts.size(), whole.sub_impacts.size());
+          for (std::size_t i = 0; i < cut.sub_impacts.size(); ++i) {
+            EXPECT_NEAR(cut.sub_impacts[i].start, whole.sub_impacts[i].start, 1e-15)
+                << to_string(method) << ", " << event << " s and " << ulp << " ulp";
+          }
+        }
+      }
     }
   }
 }

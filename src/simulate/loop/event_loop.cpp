@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "numerics/units.h"
@@ -16,6 +17,10 @@ constexpr long most_events_in_place = 64;
 // Tolerated value of the event function at a located event, in units of the rounding of
 // displacements, velocities and times.
 constexpr double tolerated_rounding = 64.0;
+
+// Part of the time of an event beside which no other event is known from rounding: where the run
+// ends so soon after one, it has no further one.
+constexpr double end_rounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 ContactBranch branch_after(EventKind kind) {
   if (kind == EventKind::contact_yields) return ContactBranch::plastic;
@@ -106,8 +111,9 @@ StepEnds EventLoop::step_to_end_time() {
     integrator_.state_at(end, end_state_);
     y1 = &end_state_;
   }
-  return {integrator_.start_time(), end, integrator_.start_state(), *y1,
-          integrator_.is_event_free()};
+  const double start = integrator_.start_time();
+  const bool is_rounding = end == options_.end_time && end - start <= end_rounding * end;
+  return {start, end, integrator_.start_state(), *y1, is_rounding || integrator_.is_event_free()};
 }
 
 IndentationStep EventLoop::indentation_of(const StepEnds& piece) const {
