@@ -210,12 +210,42 @@ TEST(Units, StandForTheSameDoublesAsNumbersInSI) {
   const LoadedCase bare =
       read_case_text(small_case_text(), "case.toml", {parse_override("time.end=8 ms")});
   EXPECT_EQ(bare.value.end_time, 8e-3);
-  const LoadedCase car =
-      read_case_text(small_case_text(), "case.toml", {parse_override("striker.velocity=18 km/h")});
-  EXPECT_EQ(car.value.scene.striker.velocity, 5.0);
-  const LoadedCase pound =
-      read_case_text(small_case_text(), "case.toml", {parse_override("striker.mass=1 lb")});
-  EXPECT_EQ(pound.value.scene.striker.mass, 0.45359237);
+}
+
+TEST(UnitsOfOtherHabits, AreThoseOfTheInternationalYardAndPoundOfSiAndOfSuperscripts) {
+  for (const auto& [setting, value] : {std::pair{"striker.velocity=18 km/h", 5.0},
+                                       {"striker.mass=1 lb", 0.45359237},
+                                       {"striker.velocity=50 ft/s", 15.24},
+                                       {"striker.velocity=10 in/s", 0.254},
+                                       {"striker.velocity=1590 cm/s", 15.9},
+                                       {"beam.length=1 ft", 0.3048},
+                                       {"scene.gravity=1 g", 9.80665},
+                                       {"beam.density=2600 kg/m\u00b3", 2600.0},
+                                       {"beam.density=2.6 kg/dm3", 2600.0},
+                                       {"beam.density=2.6 t/m3", 2600.0},
+                                       {"beam.density=2.6e-9 t/mm3", 2600.0},
+                                       {"beam.yield_stress=150 N/mm\u00b2", 150e6},
+                                       {"beam.yield_stress=1500 bar", 150e6},
+                                       {"beam.yield_stress=1 psi", 6894.757293168361},
+                                       {"beam.youngs_modulus=10000 ksi", 68947572931.68361},
+                                       {"beam.load=1 kN/mm", 1e6}}) {
+    const Override given = parse_override(setting);
+    const LoadedCase read = read_case_text(small_case_text(), "case.toml", {given});
+    const KeyValue found =
+        *find_case_key(std::string(setting).substr(0, std::string_view(setting).find('=')))
+             ->get(read.value);
+    EXPECT_DOUBLE_EQ(std::get<double>(found), value) << setting;
+  }
+}
+
+TEST(AList, TakesUnitsAsASingleNumberDoes) {
+  const LoadedCase read = read_case_text(
+      small_case_text(), "case.toml",
+      {parse_override("striker.nose_radius=default"), parse_override("contact.law=curve"),
+       parse_override(R"(contact.curve_indentation=["0 mm", "0.1 mm"])"),
+       parse_override(R"(contact.curve_force=["0 N", "2 kN"])")});
+  EXPECT_EQ(read.value.scene.contact.curve_force, (std::vector<double>{0.0, 2000.0}));
+  EXPECT_EQ(read.value.scene.contact.curve_indentation, (std::vector<double>{0.0, 1e-4}));
 }
 
 TEST(AContactStiffness, HasTheUnitOfItsLaw) {
