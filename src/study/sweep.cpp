@@ -58,7 +58,7 @@ Method possible_method(const Case& input, Method method) {
   const bool takes_tension = descriptor_of(method).modes != MethodDescriptor::Modes::always;
   if (input.scene.beam.stretches() && !takes_tension) method = Method::nystrom;
   using Damping = MethodDescriptor::Damping;
-  const bool contact = input.scene.contact_damping() > 0.0;
+  const bool contact = !(input.scene.contact_damping() == 0.0);  // NaN before a flight
   const bool beam = !input.scene.beam.damping.is_none();
   const Damping taken = descriptor_of(method).damping;
   const bool of_modes = taken == Damping::of_modes && !contact && !may_yield(input);

@@ -1,5 +1,7 @@
 // Errors of the body in the scenes in which they were once false, absurd or not there.
 
+#include <fmt/format.h>
+
 #include <numbers>
 
 #include "case_with.h"
@@ -135,6 +137,27 @@ TEST(BodyErrorsOfScenes, OfAPlaneAreThoseOfItsLaw) {
   EXPECT_GT(part_of(result, BodyPart::contact_law, &StrikeFigures::peak_force), 500.0);
   EXPECT_GT(part_of(result, BodyPart::contact_law, &StrikeFigures::dent), 5e-6);
   EXPECT_EQ(find_part(result, BodyPart::shear), nullptr);
+}
+
+TEST(ADampingRatio, OfABeamThatMayYieldRunsItElasticAndSaysHowFarBeyondYieldItCame) {
+  const Result struck = run_of(cantilever, {"beam.damping.ratio=0.01", "striker.velocity=12"});
+  EXPECT_EQ(struck.n_yielded_sections, 0u);
+  expect_in(fmt::format("{}", fmt::join(struck.warnings, "; ")), "strained up to 1.5 times");
+  const Result tapped = run_of(cantilever, {"beam.damping.ratio=0.01", "striker.velocity=1"});
+  EXPECT_TRUE(tapped.warnings.empty()) << fmt::format("{}", fmt::join(tapped.warnings, "; "));
+}
+
+TEST(ARestitution, OfAMassThatFallsOnAPlaneFindsAMethodThatDampsIt) {
+  const Result result = run_of(R"(
+striker = { mass = 1, velocity = 0, gap = 0.4 }
+contact = { law = "linear", stiffness = 1e6, restitution = 0.8 }
+scene = { gravity = 9.81 }
+beam = { fixed = true }
+time = { end = 1 }
+)");
+  ASSERT_GE(result.sub_impacts.size(), 2u);
+  EXPECT_NEAR(result.sub_impacts.front().striker_velocity, -0.8 * std::sqrt(2.0 * 9.81 * 0.4),
+              0.02);
 }
 
 TEST(BodyErrorsOfScenes, DoNotExceedTheForceOfAnElasticBall) {

@@ -258,6 +258,15 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
   add(result.largest_rotation > largest_rotation,
       "{} by up to {:.2g} rad: the model is for rotations below {} rad",
       is_rigid ? "the beam turns" : "sections turn", result.largest_rotation, largest_rotation);
+  double strain = 0.0;
+  for (const EnvelopeRow& row : result.envelope) {
+    strain = std::max({strain, row.strain.largest.value, -row.strain.smallest.value});
+  }
+  const double first_yield = beam.yield_stress / beam.youngs_modulus;
+  add(input.model.section == SectionKind::elastic && strain > first_yield,
+      "sections are strained up to {:.2g} times as far as they stay elastic, which model.section = "
+      "\"elastic\" leaves out",
+      strain / first_yield);
   const double thickness = beam.height() / beam.length;
   add(!is_rigid && beam.shears() && thickness > thickest_with_shear,
       "the beam's thickness is {:.2g} of its length: plane sections, as in every beam theory, do "

@@ -370,9 +370,14 @@ std::string verdict_words(const Result& result) {
   switch (verdict.beam) {
     case Beam::rigid:
       break;
-    case Beam::elastic:
-      beam = "the beam stays elastic; ";
+    case Beam::elastic: {
+      const double share = find(AnswerKey::yield_share).value.value_or(0.0);
+      beam = share > 1.0
+                 ? fmt::format(
+                       "strained to {:.2g} times first yield, which this model leaves out; ", share)
+                 : "the beam stays elastic; ";
       break;
+    }
     case Beam::not_computed:
       beam = "the beam has yielded; ";
       break;

@@ -11,7 +11,7 @@ namespace subimpact {
 
 double largest_possible_force(const Case& input, const Result& result) {
   const Scene& scene = input.scene;
-  if (scene.contact_damping() > 0.0) return HUGE_VAL;
+  if (!(scene.contact_damping() == 0.0)) return HUGE_VAL;  // NaN before a flight
   const Beam& beam = scene.beam;
   double load = std::abs(beam.load) * beam.length;
   for (const PointForce& force : beam.forces) {

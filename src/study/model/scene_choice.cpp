@@ -270,6 +270,9 @@ std::vector<std::string> law_words(const Case& chosen, const PossibleLaw& law,
 
 std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
   const bool open_law = !input.parts.contact_law;
+  const bool keeps_modes = input.scene.beam.damping.ratio > 0.0 && !input.parts.section &&
+                           !given.contain("model.section") && may_yield(input);
+  if (keeps_modes) input.model.section = SectionKind::elastic;
   const bool open_theory =
       !given.contain("beam.theory") && !input.parts.mesh && descriptor_of(input.model.mesh).bends;
   Case base = on_default_mesh(input);
@@ -309,6 +312,10 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
   }
   if (open_law) std::ranges::copy(law_words(chosen, *law, given), std::back_inserter(words));
   if (!knows_poisson && needs_poisson) words.push_back("beam.poisson = 0.3: none is given");
+  if (keeps_modes) {
+    words.push_back("model.section = \"elastic\": damping ratios are of natural modes");
+    keys.emplace_back("model.section");
+  }
   for (const char* key : {"beam.theory", "beam.poisson", "contact.law", "contact.indentation",
                           "contact.yield_pressure"}) {
     if (!given.contain(key) && find_case_key(key)->get(chosen)) keys.emplace_back(key);
