@@ -61,7 +61,7 @@ const char* why_half_space(const Case& input) {
   return beam.is_round() ? "nose and surface touch in an ellipse" : "a ball";
 }
 
-// The case with the law, by depth where that goes; nothing if given keys say otherwise.
+// The case with the law, by depth where that goes; nothing if given keys name another.
 std::optional<Case> with_law(const Case& input, const GivenKeys& given, const LawChoice& choice) {
   Case chosen = input;
   Contact& contact = chosen.scene.contact;
@@ -76,7 +76,7 @@ std::optional<Case> with_law(const Case& input, const GivenKeys& given, const La
     const bool yields = choice.kind == ContactKind::line || choice.kind == ContactKind::sphere;
     contact.pressure_by_depth = yields && std::isfinite(input.scene.beam.yield_stress);
   }
-  return is_allowed(chosen) ? std::optional(chosen) : std::nullopt;
+  return chosen;
 }
 
 struct PossibleLaw {
@@ -95,7 +95,8 @@ std::vector<PossibleLaw> possible_laws(const Case& input, const GivenKeys& given
       });
       if (is_there) continue;
       const auto chosen = with_law(input, given, law);
-      if (chosen) found.push_back({*chosen, law.reason ? law.reason : why_half_space(input)});
+      if (chosen && is_allowed(*chosen))
+        found.push_back({*chosen, law.reason ? law.reason : why_half_space(input)});
     }
   };
   const auto& nose = input.scene.striker.nose;
@@ -280,7 +281,14 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
   if (!knows_poisson) base.scene.beam.poisson = usual_poisson;
   std::vector<PossibleLaw> laws = {{base, nullptr}};
   if (open_law) laws = possible_laws(base, given);
-  if (laws.empty()) return {};
+  if (laws.empty()) {
+    const bool has_nose_moduli =
+        given.contain("contact.striker_modulus") || given.contain("contact.striker_poisson");
+    const bool is_ball = input.scene.striker.nose == NoseShape::sphere;
+    const auto usual = with_law(base, given, is_ball ? ball[0] : across[0]);
+    if (has_nose_moduli && usual) check(*usual);  // says what is missing
+    return {};
+  }
   const PossibleLaw* law = &laws.front();
   ShearTest test{Shear::not_tested, "no mesh with shear takes this scene"};
   Case chosen;

@@ -41,6 +41,18 @@ TEST(SceneChoice, LeavesGivenKeysAlone) {
   EXPECT_EQ(input.model_choice, "");
 }
 
+TEST(SceneChoice, OfANoseWithHalfOfItsModuliNamesTheOtherHalf) {
+  Case input = yielding_case();
+  input.scene.contact.striker_modulus = 210e9;
+  try {
+    choose_scene(input, {{"contact.striker_modulus"}, {}});
+    FAIL() << "was taken";
+  } catch (const InvalidCase& refused) {
+    EXPECT_EQ(refused.key, "contact.striker_modulus");
+    expect_in(refused.what(), "only where both", "contact.striker_poisson");
+  }
+}
+
 TEST(SceneChoice, OfABallIsASphereFromTheMidPlaneWhereTheBeamBends) {
   Case input = yielding_case();
   input.scene.striker.nose = NoseShape::sphere;
