@@ -33,6 +33,10 @@ output = { interval = 1e-5, sections = [0.5] }
 """
 
 
+def pytest_configure(config):
+    config.addinivalue_line("filterwarnings", "error::RuntimeWarning")  # of NumPy, which tell users nothing
+
+
 @pytest.fixture
 def elastic():
     return si.Case.from_text(ELASTIC, "elastic.toml")

@@ -125,6 +125,17 @@ def with_overrange():
     return "time_ms,force_N\n" + "\n".join(lines) + "\n"
 
 
+def hioki():
+    """A blank between sign and digits."""
+    return "Time[s],CH1[N]\n" + re.sub(r"([-+])(?=\d+\.)", r"\1 ", rows(1, 1, time_format="{:+.6f}", force_format="{:+.3f}"))
+
+
+def spans(days, hours):
+    """Times as spans, of pandas and of Python's datetime."""
+    seconds = (f"{t % 86400:.6f}" for t in TIMES)
+    return "time,force_N\n" + "".join(f"{days(t)}{hours(float(s))},{f:.4f}\n" for t, s, f in zip(TIMES, seconds, FORCES))
+
+
 def clock(form, mark=".", before="", after=""):
     """Times of day, from 12:03:04.1234 on."""
     def cell(t):
@@ -171,6 +182,18 @@ def all_files():
     yield File("scientific.tsv", ("time [s]\tF [N]\n" + rows(1, 1, "\t", time_format="{:.6e}", force_format="{:.3e}")).encode())
     yield File("gaps.csv", with_gaps().encode(), n=N - 5)
     yield File("overrange.csv", with_overrange().encode(), n=N - 5)
+    yield File("hioki.csv", hioki().encode())
+    yield File("timedelta.csv", spans(lambda t: "-1 days +" if t < 0 else "0 days ", lambda s:
+               f"{int(s) // 3600:02d}:{int(s) // 60 % 60:02d}:{s % 60:09.6f}").encode())
+    for unit, per in (("ft/s^2", 0.3048), ("in/s²", 0.0254), ("cm/s2", 0.01), ("mm/s^2", 1e-3)):
+        yield File(f"acceleration-{unit.replace('/', '-')}.csv", acceleration(unit, 1 / per).encode(), {"mass": "0.201 kg"}, "mass=")
+    for mass in ("7.09006635 oz", "0.44312914 lbm", "0.0137728 slug"):
+        yield File(f"mass-{mass}.csv", acceleration("g", 1 / GRAVITY).encode(), {"mass": mass}, "mass=")
+    for other in ("psi", "ksi", "ft", "cm/s", "in/s", "°F", "kPa"):
+        yield File(f"beside-{other.replace('/', '-')}.csv", (f"t;Load;Other\ns;lbf;{other}\n"
+                   + rows(1, 1 / 4.4482216152605, ";", time_format="{:.6f}", after=";21.5")).encode())
+        yield File(f"heading-{other.replace('/', '-')}.csv", (f"t [s];Channel 2 [{other}];Channel 1\n"
+                   + rows(1, 1, ";21.5;", time_format="{:.6f}")).encode(), {"units": "s,N"}, "units=")
     noon = 12 * 3600 + 3 * 60 + 4.1235 + BEGIN
     yield File("clock.csv", ("Time;Force [N]\n" + clock("{}")).encode(), begin=noon)
     yield File("clock-date.csv", ("Timestamp;Force [N]\n" + clock("2024-03-12T{}Z")).encode(), begin=noon)

@@ -70,6 +70,40 @@ def test_an_instrument_s_file_is_read_with_its_units_and_sign(file, tmp_path):
     assert path.name in repr(signal) and signal.assumed
 
 
+@pytest.mark.parametrize("columns", [2, "2", "Force 1", (1, 2)])
+def test_a_named_column_of_forces_leaves_the_times_of_the_file_in_place(columns, tmp_path):
+    """Every second sample exported, of a record whose header has the rate of all of them."""
+    path = tmp_path / "export.csv"
+    path.write_text("Sample rate,50000 Hz\nTime (s),Force 1 (N),Force 2 (N)\n" + "".join(
+        f"{t:.6f},{1200 * np.sin(np.pi * t / 8e-4) * (0 < t < 8e-4):.4f},0.0\n" for t in np.arange(-1e-3, 6.97e-3, 4e-5)))
+    signal = measured.read(path, columns=columns)
+    assert signal.times[0] == -1e-3 and signal.interval == pytest.approx(4e-5)
+    assert np.trapz(signal.forces, signal.times) == pytest.approx(1200 * 8e-4 * 2 / np.pi, rel=1e-2)
+    assert any("40 us apart" in words and "states 20 us" in words for words in signal.assumed)
+    assert measured.read(path, columns=columns, interval="1us").times[0] == 0.0
+
+
+def test_a_named_column_of_forces_is_read_from_every_file_with_its_times(tmp_path):
+    for file in FILES:
+        path = tmp_path / file.name
+        path.write_bytes(file.content)
+        signal = measured.read(path, **file.options)
+        force = next(re.search(r"column (\d+)", words)[1] for words in signal.assumed if words.startswith("force"))
+        assert measured.read(path, **{**file.options, "columns": force}) == signal, file.name
+
+
+def test_the_records_of_a_file_with_segments_are_read_as_the_message_advises(tmp_path):
+    path = tmp_path / "segments.csv"
+    path.write_text("LECROYWS3024,12345,Waveform\nSegments,2,SegmentSize,400\n#1,13-Mar-2020 14:22:11,0\n#2,13-Mar-2020 14:22:12,1\n"
+                    "Time,Ampl\n" + rows(1, 1, time_format="{:.6e}") + rows(1, 0.5, time_format="{:.6e}"))
+    with pytest.raises(si.ResultsError) as refused:
+        measured.read(path, units="s,N")
+    n, skip, columns = re.search(r"rows=(\d+) .* skip=(\d+) .*columns=(\d,\d)", str(refused.value)).groups()
+    first = measured.read(path, units="s,N", rows=int(n))
+    second = measured.read(path, units="s,N", skip=int(skip), columns=columns, rows=int(n))
+    assert len(first) == len(second) == len(TIMES) and np.allclose(second.forces, 0.5 * first.forces, atol=1e-4)
+
+
 REFUSED = {
     "of two units": ("time [ms],force [N]\ns,N\n" + rows(1e6, 1), "units="),
     "in megaseconds": ("time (MS),force (N)\n" + rows(1e6, 1), "units="),
@@ -98,6 +132,7 @@ REFUSED = {
     "times minus one": ("time_us,Force*-1 (N)\n" + rows(1e6, 1), "units="),
     "with a power behind the unit": ("time_us,Force [N] 1e3\n" + rows(1e6, 1), "units="),
     "of logarithms": ("time_us,log force (N)\n" + rows(1e6, 1), "units="),
+    "of a pressure alone": ("time [us],p [psi]\n" + rows(1e6, 1), "columns="),
     "of words": ("no numbers at all\n", "no rows of numbers"),
 }
 
@@ -268,6 +303,29 @@ def test_a_fit_tells_what_the_force_does_not_determine(strike, elastic):
     assert measured.align(strike, signal, shift="0 us").shift_error is None
 
 
+@pytest.mark.parametrize("keys", [("beam.youngs_modulus", "beam.width", "beam.density"),
+                                  ("beam.width", "striker.mass", "contact.stiffness", "striker.velocity")])
+def test_keys_that_stand_for_one_another_are_named_and_refused(strike, elastic, keys):
+    quick = elastic.changed({"time.end": 3e-4, "output.sections": [], "output.points": [], "output.shapes": 0.0})
+    with pytest.raises(si.ResultsError, match=f"^{', '.join(keys)} stand for one another"):
+        measured.fit(quick, signal_of(strike, noise=0.01, end=3e-4), [*keys, "striker.velocity"][:4])
+
+
+def test_a_fit_of_noise_alone_is_one_message(strike, elastic):
+    noise = measured.Signal(1e-6 * np.arange(40), 3 * np.random.default_rng(10).normal(size=40) + 0.5)
+    with pytest.raises(si.ResultsError, match="noise alone"):
+        measured.fit(elastic.changed({"output.sections": [], "output.points": [], "output.shapes": 0.0}), noise, "striker.velocity")
+
+
+def test_a_second_hit_in_a_record_is_said(strike):
+    one = signal_of(strike, shift=1e-3, noise=0.003)
+    later = one.times[-1] + 1e-6 * np.arange(1, 400_000)
+    again = measured.Signal(np.r_[one.times, later], np.r_[one.forces, np.interp(later - 0.3, one.times, 0.8 * one.forces)])
+    found = measured.align(strike, again)
+    assert found.elsewhere == pytest.approx((0.3 + one.times[one.forces.argmax()], 0.8 * one.forces.max()), rel=1e-3)
+    assert "another hit" in found.doubt and not measured.align(strike, one).doubt
+
+
 def test_a_coarse_record_of_the_model_itself_gives_its_keys(strike, elastic):
     quick = elastic.changed({"time.end": 3e-4, "output.sections": [], "output.points": [], "output.shapes": 0.0,
                              "output.interval": 5e-8})
@@ -306,11 +364,11 @@ def test_what_cannot_be_laid_beside_each_other_is_refused_or_doubted(strike):
 def test_a_difference_lies_within_the_total_error_of_the_computed_force_or_not(strike):
     found = measured.align(strike, signal_of(strike, factor=1.01))
 
-    def words(total):
-        return next(answer["note"] for answer in replace(found, total_error=total).answers() if answer["name"] == "largest force")
+    for name, error, size in (("largest force", "total_error", found.computed.peak), ("impulse", "impulse_error", found.computed.impulse)):
+        def words(total):
+            return next(answer["note"] for answer in replace(found, **{error: total}).answers() if answer["name"] == name)
 
-    assert words(0.1 * found.computed.peak).startswith("within") and words(1e-3 * found.computed.peak).startswith("outside")
-    assert "not known" in words(None)
+        assert words(0.1 * size).startswith("within") and words(1e-3 * size).startswith("outside") and "not known" in words(None)
     force = next(answer for answer in strike.answers if answer["key"] == "largest_force")
     assert (found.total_error is None) == (force["error"] is None or force["body_error"] is None)
 

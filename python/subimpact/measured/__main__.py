@@ -99,10 +99,12 @@ def main(arguments: list[str] | None = None) -> int:
     how = {name: options.pop(name) for name in ("shift", "gain", "low_pass", "gauge")}
     run, measured, out = (options.pop(name) for name in ("run", "measured", "out"))
     try:
-        alignment = align(read_results(run), read(measured, **options), **how)
+        signal = read(measured, **options)
+        alignment = align(read_results(run), signal, **how)
     except ResultsError as error:
         print(f"subimpact: {printable(str(error))}", file=sys.stderr)
         return 2
+    print(f"  {'read as':<18}  {printable('; '.join(signal.assumed))}")
     for answer in alignment.answers():
         print(f"  {answer['name']:<18}  {answer['value']}\n{'':22}{answer['note']}")
     sys.stdout.flush()

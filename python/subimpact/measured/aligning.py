@@ -25,6 +25,7 @@ _LIKE_EACH_OTHER = 0.9  # correlation of two forces of the same strike
 _IN_CONTACT = 0.05  # of the largest force
 _OCTAVE = np.log(2.0)
 _FEWEST = 20  # samples within the run
+_ANOTHER = 0.3  # of the largest force, beyond what is compared
 #: Standard errors in an error that is stated.
 N_ERRORS = 3.0
 
@@ -78,6 +79,16 @@ def covariance_of(jacobian: Numbers, residuals: Numbers) -> Numbers:
     return widened
 
 
+def jacobian(model: Callable[[Numbers], Numbers], x: Numbers, steps: Numbers, bounds: Numbers) -> Numbers:
+    """The derivatives of a model, a column per parameter, by differences within the bounds."""
+    columns = []
+    for j, step in enumerate(steps):
+        down, up = x.copy(), x.copy()
+        down[j], up[j] = max(x[j] - step, bounds[0][j]), min(x[j] + step, bounds[1][j])
+        columns.append((model(up) - model(down)) / (up[j] - down[j]))
+    return np.stack(columns, axis=1)
+
+
 def solve(model: Callable[[Numbers], Numbers], forces: Numbers, start: Numbers, steps: Numbers, bounds: Numbers,
           **options: Any) -> tuple[Numbers, Numbers]:
     """The parameters with which a model differs least from forces, and their covariance. `steps`: half the change of each
@@ -86,16 +97,9 @@ def solve(model: Callable[[Numbers], Numbers], forces: Numbers, start: Numbers, 
 
     size = float(np.abs(forces).max())  # strains are small beside the tolerance of gradients
 
-    def jacobian(x: Numbers) -> Numbers:
-        columns = []
-        for j, step in enumerate(steps):
-            down, up = x.copy(), x.copy()
-            down[j], up[j] = max(x[j] - step, bounds[0][j]), min(x[j] + step, bounds[1][j])
-            columns.append((model(up) - model(down)) / (size * (up[j] - down[j])))
-        return np.stack(columns, axis=1)
-
     inside = np.clip(start, bounds[0] + 1e-6, bounds[1] - 1e-6)
-    found = least_squares(lambda x: (model(x) - forces) / size, inside, jac=jacobian, bounds=tuple(bounds), **options)
+    found = least_squares(lambda x: (model(x) - forces) / size, inside, jac=lambda x: jacobian(model, x, steps, bounds) / size,
+                          bounds=tuple(bounds), **options)
     return found.x, covariance_of(found.jac, found.fun)
 
 
@@ -173,6 +177,8 @@ class Alignment:
     at_bound: bool  #: whether the cut-off found is at an end of the searched range
     quantity: str = "force"  #: or "strain": what is named a force here is then the strain of a gauge, m/m
     total_error: float | None = None  #: N, of the computed largest force, computation and body together; None: not known
+    impulse_error: float | None = None  #: N s, the same of the impulse, where the record covers the run
+    elsewhere: tuple[float, float] | None = None  #: time of the record, s, and force, N, of a strike that is not compared
 
     @property
     def doubt(self) -> str:
@@ -187,6 +193,10 @@ class Alignment:
         if self.at_bound:
             return ("the cut-off found is at an end of the searched range: the measurement shows no low-pass filter of fourth "
                     "order between two periods in the record and half of the sampling rate")
+        if self.elsewhere:
+            time, force = self.elsewhere
+            return (f"beyond the part that is compared the record has {force:.4g} N, at {time:.6g} s of its own time: another hit, or a "
+                    "later sub-impact than the run has; keep one hit (rows=, skip=), give shift= for the other, or a later time.end")
         return ""
 
     def answers(self) -> list[dict[str, str]]:
@@ -338,17 +348,27 @@ def align(result: Result, signal: Signal, shift: float | str | None = None, gain
     here = computed.at(times[inside])
     cutoff = None if low_pass is None else float(np.exp(x))
     find = low_pass == "find"
-    force = next(answer for answer in result.answers if answer["key"] == "largest_force")
-    errors = [force["error"], force["body_error"]]
+    covered = bool(begin <= raw.times[0] and end >= raw.times[-1])
+    beyond = np.where(inside | (np.abs(times) < 2 * signal.interval), 0.0, forces)
+    other, measured = int(np.argmax(beyond)), _side(Curve(times, forces), begin, end)
+    is_hit = signal.quantity == "force" and beyond[other] > _ANOTHER * measured.peak
     return Alignment(
-        total_error=None if None in errors else float(np.hypot(*errors)),
+        total_error=_total_error(result, "largest_force"), impulse_error=_total_error(result, "impulse") if covered else None,
+        elsewhere=(float(signal.times[other]), float(forces[other])) if is_hit else None,
         shift=float(found_shift), shift_error=float(shift_error) if shift is None else None,
         low_pass=cutoff, low_pass_error=float(x_error) * cutoff if cutoff and find else None,
         gain=factor, gain_error=float(gain_error) if gain == "find" else None,
         correlation=correlation(here, forces[inside]), interval=signal.interval, begin=begin, end=end,
-        computed=_side(computed, begin, end), measured=_side(Curve(times, forces), begin, end),
+        computed=_side(computed, begin, end), measured=measured,
         difference=(times[inside], here - forces[inside]),
         at_bound=find and float(np.min(np.abs(search.cutoffs - x))) < 1e-2, quantity=signal.quantity)
+
+
+def _total_error(result: Result, key: str) -> float | None:
+    """Of an answer of the run, computation and body together."""
+    answer = next(answer for answer in result.answers if answer["key"] == key)
+    errors = [answer["error"], answer["body_error"]]
+    return None if None in errors else float(np.hypot(*errors))
 
 
 def _check_common(shift: float, signal: Signal, run: Curve) -> tuple[float, float]:

@@ -14,7 +14,7 @@ from .._errors import CaseError, ResultsError
 from ..case import Case, as_case, keys as all_keys
 from ..result import Result
 from ..running import ErrorBars, run
-from .aligning import Alignment, align, column_of, curve_of, in_seconds, solve
+from .aligning import Alignment, align, column_of, curve_of, in_seconds, jacobian, solve
 from .reading import Signal
 from .words import rounded
 
@@ -28,6 +28,7 @@ _BEGIN = 0.1
 _STEP = 1e-3  # of a key, for derivatives; the tolerance of a run is far below
 _FELT = 1e-9  # change of the force that is more than rounding, in its largest value
 _ROWS = 4000  # of a run, between which its force is linear
+_APART = 1e-3  # of unit derivatives of the force: the least share that is not a sum of the others
 
 
 @dataclass(frozen=True, repr=False)
@@ -50,6 +51,7 @@ class Fit:
             power = "" if scale == 1.0 else f"e{round(math.log10(scale)):+d}"
             text = rounded(value / scale, error / scale, "").strip().replace(" +-", f"{power} +-") + power
             bound = ", at the end of its bounds" if key in self.at_bound else ""
+            bound += ", which this record does not tell" if error > abs(value) else ""
             related = " ".join(f"{other:+.2f}" for other in others)
             lines.append(f"{key:<24}  {text} {all_keys()[key].unit} (standard error){bound}; correlation {related}")
         return "\n".join([*lines, f"after {self.n_runs} runs", repr(self.alignment)])
@@ -89,7 +91,7 @@ class _Runs:
         self.case = case.changed({**case.chosen(), **changes})  # one model for all runs
         self.start = start
         self.n = 0
-        self._result = functools.lru_cache(maxsize=9)(self._run)
+        self._result = functools.lru_cache(maxsize=2 * len(start) + 9)(self._run)
 
     def values(self, x: Numbers) -> dict[str, float]:
         """At _BEGIN they are those of the start. Keys that begin at 0 change by a unit, others by a factor."""
@@ -129,6 +131,15 @@ class _Runs:
         return result
 
 
+def _check_apart(derivatives: Numbers, names: Sequence[str], quantity: str) -> None:
+    """Refuses keys whose changes together leave the force as it is."""
+    _, sizes, directions = np.linalg.svd(derivatives / np.linalg.norm(derivatives, axis=0), full_matrices=False)
+    if (alike := np.abs(directions[sizes < _APART * sizes[0]]).max(axis=0, initial=0.0) > 0.05).any():
+        stand = [name for name, is_alike in zip(names, alike) if is_alike]
+        raise ResultsError(f"{', '.join(stand)} stand for one another: changed together they leave the {quantity} as it is, so that it "
+                           "does not tell their values; leave one of them out of the fit, with its value from elsewhere")
+
+
 def _limits(runs: _Runs, bounds: Mapping[str, tuple[Any, Any]] | None) -> tuple[Numbers, Numbers]:
     """Of what the fit changes: the range of each key, or what is given."""
     if strange := sorted(set(bounds or {}) - set(runs.start)):
@@ -162,7 +173,7 @@ def fit(
     progress: Callable[[int, float], object] | None = None,
 ) -> Fit:
     """Finds the values of keys with which the force, or strain, of the run differs least from the measured one,
-    by least squares. It begins with the values of the case, which must be likely ones.
+    by least squares. It begins with the values of the case, which must be likely ones, and refuses keys that stand for one another.
 
     keys       numbers of the case: "striker.nose_radius", "contact.damping"
     shift      s, by which the measured time is later; None: it is found with the keys
@@ -183,6 +194,9 @@ def fit(
     later = signal.times - first.shift
     inside = (later > first.begin - margin) & (later < first.end - 16 * signal.interval)
     times, forces = signal.times[inside], signal.forces[inside] / gain
+    if len(times) < 10 * (n + 1):
+        raise ResultsError(f"{len(times)} samples lie within the run where its {signal.quantity} resembles the measured one most (correlation "
+                           f"{first.correlation:.2f}), too few for {n + 1} numbers; a record of noise alone? If not, give shift=, or sample faster")
 
     def force(z: Numbers) -> Numbers:
         moved = first.shift + ((z[n] - _BEGIN) * apart if shift is None else 0.0)
@@ -196,6 +210,7 @@ def fit(
     ends = np.pad(_limits(runs, bounds), ((0, 0), (0, len(free) - n)), constant_values=np.nan)
     ends[:, n:] = [[-np.inf], [np.inf]]
     steps = np.r_[np.full(n, _STEP), np.full(len(free) - n, 0.5 * signal.interval / apart)]
+    _check_apart(jacobian(force, free, steps, ends), [*start, "the shift"], signal.quantity)
     found, covariance = solve(force, forces, free, steps, ends, method="dogbox", xtol=1e-6, ftol=1e-7)
     covariance = covariance[:n, :n]
     values = runs.values(found[:n])

@@ -28,7 +28,7 @@ _INCREMENTS = ("increment", "deltax", "deltat", "dt", "tinc", "xinc", "sampleint
                "sampleperiod", "samplingperiod", "timestep", "hresolution", "interval", "abtastintervall")
 _RATES = ("samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "fs", "abtastrate", "abtastfrequenz")
 _STARTS = ("start", "starttime", "x0", "t0", "hoffset", "xzero", "firstsample")
-_MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237}
+_MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237, "lbm": 0.45359237, "oz": 0.028349523125, "slug": 14.593902937}
 
 
 _GAINS = ("gain", "amplifiergain", "amplification")
@@ -120,16 +120,16 @@ class _Reading:
         self.time: int | None = None
         given = [self._index(column) for column in columns]
         stated = dict(enumerate(table.units))
-        for column, text in zip(given[-len(units):] if given else [], units):
+        for column, text in zip(reversed(given), reversed(units)):
             stated[column] = self._given_unit(text)
-        if given:
-            self.time, self.force = (given[0] if len(given) > 1 else None), given[-1]
-        else:
+        if len(given) > 1:
+            self.time = given[0]
+        elif has_times:
             self.time = self._choose({"time"}, stated, _TIME, "times")
-            self.force = self._find_force(stated, units)
-        if not has_times:
+        self.force = given[-1] if given else self._find_force(stated, units)
+        if not has_times or self.time == self.force:
             self.time = None
-        elif self.time is None and len(given) != 1:
+        elif self.time is None:
             self.time = self._unnamed_time()
         self.time_unit = self._unit(self.time, units[0] if len(units) > 1 else None, "time")
         self.force_unit = self._unit(self.force, units[-1] if units else None, "force")
@@ -178,7 +178,7 @@ class _Reading:
         others = [j for j in others if not self._is_index(j) and not _TIME.match(table.names[j])] or others
         others = others[1:] if len(others) == 2 and self.time is None and not table.names[others[0]] else others
         if len(others) != 1:
-            table.fail(table.heading or table.first + 1, f"names no column of forces among {self._all(others)}; give "
+            table.fail(table.heading or table.first + 1, f"names no column of forces among {self._all(others or table.columns)}; give "
                        "columns=T,F, the numbers of that of the time and that of the force, and units=us,N if no unit is stated")
         return others[0]
 
@@ -262,11 +262,16 @@ class _Reading:
         return 1.0 / hertz if hertz else step
 
     def check_interval(self, times: npt.NDArray[np.float64]) -> None:
-        """Refuses times that the metadata contradict."""
-        step, found = self.stated_interval(), float(np.nanmedian(np.abs(np.diff(times))))
-        if step and found and not 0.4 < found / step < 2.5:
-            self.table.fail(self.table.heading or None, f"has times {found:.3g} s apart and states {step:.3g} s between samples; "
+        """Says where times and metadata differ, and refuses times that can only have another unit."""
+        step, known = self.stated_interval(), times[np.isfinite(times)]
+        if not step or len(known) < 2:
+            return
+        apart = (float(np.median(np.abs(np.diff(known)))), float(np.ptp(known)) / (len(known) - 1))  # few digits; gaps
+        if apart[0] and not 0.4 < apart[0] / step < 2.5:
+            self.table.fail(self.table.heading or None, f"has times {apart[0]:.3g} s apart and states {step:.3g} s between samples; "
                             "give units=us,N, if the times have another unit, or interval=1us")
+        if min(abs(each / step - 1.0) for each in apart) > 0.02:
+            self.overruled.append(f"times {1e6 * apart[0]:.6g} us apart as in their column, where the file states {1e6 * step:.6g} us")
 
     def check_factor(self) -> None:
         """Refuses a factor of the numbers in the metadata, of which instruments are not of one mind."""
@@ -433,8 +438,10 @@ def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], for
         assumed.append("rows from the last to the first")
     if (steps < 0.0).any():
         line = table.line_of(int(kept[int(np.argmax(steps < 0.0)) + 1]), wanted)
-        table.fail(line, "the time is earlier than that of the row above; give rows=N to end before this line, columns=T,F "
-                   "for another column of times, or interval=1us for none")
+        n, numbers = line - 1 - table.first, ",".join(str(column + 1) for column in wanted)
+        table.fail(line, f"the time is earlier than that of the row above, as where another record begins; give rows={n} for the one "
+                   f"above, skip={line - 1} with columns={numbers} and units=us,N for the one from here on (and rows=N for its length), "
+                   "or interval=1us if these are no times")
     if (steps == 0.0).any():
         begins = np.flatnonzero(np.r_[True, steps > 0.0])
         forces = np.add.reduceat(forces, begins) / np.diff(np.r_[begins, len(times)])

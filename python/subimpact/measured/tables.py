@@ -23,13 +23,11 @@ if TYPE_CHECKING:
 _EMPTY = ("", "nan", "-nan", "inf", "-inf", "+inf", "infinity", "-infinity", "∞", "-∞", "+∞", "n/a", "#n/a", "na",
           "null", "none", "--", "-", "overflow", "over", *(sign + text for sign in ("", "-", "+") for text in
                                                                    ("1.#qnan", "1.#snan", "1.#inf", "1.#ind", "nan(ind)")))
-#: A cell with a time of day, with or without a date and a time zone.
-_CLOCK = re.compile(r"(?:(?<=[,;\t\"])|^)(?:\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d+)?)"
+#: A cell with a time of day, with or without a date and a time zone, or with a span of days and hours.
+_CLOCK = re.compile(r"(?:(?<=[,;\t\"])|^)(?:\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[ T]|(-?\d+) days?,? ?\+?)?(\d{1,2}):(\d\d):(\d\d)([.,]\d+)?"
                     r"(?:Z|[-+]\d\d:?\d\d)?(?=[,;\t\"]|$)")
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+|\d{1,3}(?:[.,]\d{3})+(?:[.,]\d*)?)(?:[eEdD][-+]?\d+)?")
 _NUMBERS_ONLY = re.compile(r"[-+\d.,;|\s\"edEnaif∞]*\d[-+\d.,;|\s\"edEnaif∞]*", re.IGNORECASE)
-_OTHER_UNITS = ("°C", "C", "K", "%", "m", "mm", "um", "µm", "m/s", "mm/s", "rpm", "1/min", "bar", "Pa", "kPa", "MPa", "A", "mA",
-                "°", "dB")
 _INDEX = ("sequence", "sample", "samples", "index", "point", "points", "nr", "no", "")
 _BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF32_LE: "utf-32", codecs.BOM_UTF32_BE: "utf-32",
          codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
@@ -51,9 +49,17 @@ def _decoded(content: bytes, file: str) -> str:
     if "\0" in text[:2000]:
         raise ResultsError(f"{file}: is no text; allowed: CSV and other tables of numbers; export it as CSV")
     text = text.replace("\r\n", "\n").replace("\r", "\n").replace("\u2212", "-")
+    text = re.sub(r"(^|[,;\t\"|])( *[-+]) +(?=[.,\d])", r"\1\2", text, flags=re.MULTILINE)  # "+ 0.300"
     if "'" in text or "\u2019" in text:
         text = re.sub(r"(?<=\d)['\u2019](?=\d{3})", "", text)  # thousands
     return re.sub(r"(?<=\d)[\u00a0\u202f](?=\d)", "", text) if "\u00a0" in text or "\u202f" in text else text
+
+
+def _seconds(at: re.Match[str]) -> str:
+    """Those of a time of day or a span, with the mark of its decimals."""
+    mark = (at[5] or ".")[0]
+    whole = 86400 * int(at[1] or 0) + 3600 * int(at[2]) + 60 * int(at[3]) + int(at[4])
+    return str(whole + Decimal("0." + (at[5] or ".0")[1:])).replace(".", mark)
 
 
 def _is_grouped(text: str, mark: str) -> bool:
@@ -97,8 +103,7 @@ class Table:
         """Puts seconds in place of times of day such as 12:03:04.123456."""
         self.has_clock = sum(bool(_CLOCK.search(line)) for line in self.lines[:200]) > min(3, len(self.lines) // 4)
         if self.has_clock:
-            self.lines = [_CLOCK.sub(lambda at: str(3600 * int(at[1]) + 60 * int(at[2]) + int(at[3][:2])) + at[3][2:], line)
-                          for line in self.lines]
+            self.lines = [_CLOCK.sub(_seconds, line) for line in self.lines]
 
     def _sample(self) -> list[str]:
         """Lines that hold numbers alone, or else any from the later half."""
@@ -187,7 +192,7 @@ class Table:
     def _is_units(self, cells: list[str]) -> bool:
         """Whether this row has the units of the columns."""
         has = [unit_of(cell) is not None for cell in cells]
-        return any(has) and all(known or cell.lower() in _INDEX or cell in _OTHER_UNITS
+        return any(has) and all(known or cell.lower() in _INDEX
                                 or re.fullmatch(r"[\[(].*[\])]", cell) is not None
                                 or (j not in self.columns and _NUMBER.fullmatch(cell) is not None)
                                 for j, (cell, known) in enumerate(zip(cells, has)))

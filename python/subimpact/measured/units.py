@@ -17,13 +17,16 @@ _NAMES = {
 #: Kinds by symbol, and their prefixes: nobody writes "MV" or "ks" who does not mean mV or something else.
 _KINDS = {"s": ("time", "munp"), "N": ("force", "GMkmun"), "V": ("voltage", "kmun"), "C": ("charge", "munp"),
           "Hz": ("frequency", "GMk"), "S/s": ("frequency", "GMk")}
+#: Of columns that are neither time nor force.
+_OTHERS = ("m mm um cm in ft m/s mm/s cm/s in/s ft/s km/h mph Pa kPa MPa GPa hPa bar mbar psi ksi psf N/mm2 kN/m2 Nm °C C °F K % rpm 1/min "
+           "A mA ° deg rad dB")
 _STANDARD_GRAVITY = 9.80665  # m/s^2
 
 
 class Unit(NamedTuple):
     """Values times `factor` are in SI."""
 
-    kind: str  #: "time", "force", "strain", "voltage", "charge", "acceleration" or "frequency"
+    kind: str  #: "time", "force", "strain", "voltage", "charge", "acceleration", "frequency" or "other"
     factor: float
     symbol: str
 
@@ -41,7 +44,8 @@ def _table() -> dict[str, Unit]:
     for careless, symbol in {"S": "s", "mS": "ms", "uS": "us", "US": "us", "nS": "ns", "NS": "ns", "KN": "kN",
                              "Sa/s": "S/s", "kSa/s": "kS/s", "MSa/s": "MS/s", "1/s": "Hz"}.items():
         table[careless] = table[symbol]
-    for symbol, factor in {"lbf": 4.4482216152605, "lbs": 4.4482216152605, "kip": 4448.2216152605, "kgf": _STANDARD_GRAVITY,
+    for symbol, factor in {"lbf": 4.4482216152605, "lbs": 4.4482216152605, "kip": 4448.2216152605, "kips": 4448.2216152605,
+                           "klbf": 4448.2216152605, "ozf": 0.27801385095378, "kgf": _STANDARD_GRAVITY,
                            "kp": _STANDARD_GRAVITY, "cN": 0.01, "daN": 10.0}.items():
         table[symbol] = Unit("force", factor, symbol)
     table["min"] = Unit("time", 60.0, "min")
@@ -54,7 +58,10 @@ def _table() -> dict[str, Unit]:
     for symbol in ("um/m", "microstrain", "ustrain", "uε"):
         table[symbol] = Unit("strain", 1e-6, "um/m")
     table["mm/m"] = Unit("strain", 1e-3, "mm/m")
-    table["mm/s2"] = Unit("acceleration", 1e-3, "mm/s^2")
+    for length, metres in {"mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}.items():
+        table[f"{length}/s2"] = table[f"{length}/s/s"] = Unit("acceleration", metres, f"{length}/s^2")
+    for symbol in _OTHERS.split():
+        table[symbol] = Unit("other", 1.0, symbol)
     return table
 
 
@@ -74,7 +81,7 @@ def unit_of(text: str) -> Unit | None:
     """The unit that this is, such as "us" or "(kN)"."""
     text = text.strip().strip("[](){}<>\"'").strip().replace("µ", "u").replace("μ", "u").replace("²", "2")
     text = text.removesuffix(".")  # "Sec."
-    text = re.sub(r"(?<=[a-z0-9/])[\s^*·.]+(?=[-a-z0-9(])", "", text) if text[:1] == "m" else text
+    text = re.sub(r"(?<=[a-z0-9/])[\s^*·.]+(?=[-a-z0-9(])", "", text) if re.match(r"m|(?:cm|in|ft)\b", text) else text
     return _UNITS.get(text) or (_UNITS.get(text.lower()) if len(text) > 2 and text.isalpha() else None)
 
 
@@ -84,17 +91,24 @@ def unit_in(name: str) -> Unit | None:
         return None
     if brackets := BRACKETS.findall(name):
         units = [unit for text in brackets if (unit := unit_of(text))]
+        units = [unit for unit in units if unit.kind != "other"] or units
         return units[-1] if units and (len(units) == 1 or units[-2].kind != units[-1].kind) else None
-    if whole := unit_of(name):
-        return whole
+    return _unit_without_brackets(name)
+
+
+def _unit_without_brackets(name: str) -> Unit | None:
+    """Where the names of many units are mere words: "in", "bar", "A"."""
     if fraction := _FRACTION.fullmatch(name):
         return unit_of(fraction[1])
+    if (whole := unit_of(name)) and whole.kind != "other":
+        return whole
     if channel := re.fullmatch(r"CH\d(m?V)", name.strip()):
         return unit_of(channel[1])
     words = re.split(r"[\s_,:;-]+", name.strip())
     if len(words) < 2 or "per" in words or re.fullmatch(r"[x*]?\d[\d.^eE+]*", words[-2]):  # "v_m_per_s", "10^-6 s"
         return None
-    return unit_of(words[-1])
+    last = unit_of(words[-1])
+    return last if last and last.kind != "other" else None
 
 
 def quantity(text: str, decimal: str = ".") -> tuple[float, str] | None:

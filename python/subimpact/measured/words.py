@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 _MOST_DECIMALS = 6
+_NOT_KNOWN = "error of the computed one not known"
 
 
 def rounded(value: float, error: float | None, unit: str) -> str:
@@ -41,13 +42,15 @@ def answers_of(a: Any) -> list[dict[str, str]]:
     c, m = a.computed, a.measured
     cover = f"from {1e6 * a.begin:.6g} to {1e6 * a.end:.6g} us of the run, which both cover"
     if a.quantity == "strain":
-        return [*answers, _difference("largest strain", 1e6 * c.peak, 1e6 * m.peak, "um/m", cover)]
-    total = "error of the computed one not known"
-    if a.total_error is not None:
-        side = "within" if abs(c.peak - m.peak) <= a.total_error else "outside"
-        total = f"{side} the computed one's total error of {a.total_error:.2g} N"
+        return [*answers, _difference("largest strain", 1e6 * c.peak, 1e6 * m.peak, "um/m", f"{_NOT_KNOWN}; {cover}")]
+
+    def side(difference: float, total: float | None, unit: str) -> str:
+        if total is None:
+            return _NOT_KNOWN
+        return f"{'within' if abs(difference) <= total else 'outside'} the computed one's total error of {total:.2g} {unit}"
+
     return [*answers,
-            _difference("largest force", c.peak, m.peak, "N",
-                        f"{total}; at {1e6 * c.peak_time:.1f} and {1e6 * m.peak_time:.1f} us of the run"),
-            _difference("impulse", c.impulse, m.impulse, "N s", cover),
-            _difference("time in contact", 1e6 * c.contact, 1e6 * m.contact, "us", "above 5 % of the largest force")]
+            _difference("largest force", c.peak, m.peak, "N", f"{side(c.peak - m.peak, a.total_error, 'N')}; at "
+                        f"{1e6 * c.peak_time:.1f} and {1e6 * m.peak_time:.1f} us of the run"),
+            _difference("impulse", c.impulse, m.impulse, "N s", f"{side(c.impulse - m.impulse, a.impulse_error, 'N s')}; {cover}"),
+            _difference("time in contact", 1e6 * c.contact, 1e6 * m.contact, "us", f"{_NOT_KNOWN}; above 5 % of the largest force")]
