@@ -1,3 +1,4 @@
+#include <fmt/ranges.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "bindings.h"
 #include "finished.h"
 #include "io/records/run_tables.h"
+#include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
@@ -115,6 +117,27 @@ double striker_energy_share(const Finished& run) {
   return std::pow(run.result.striker_velocity / run.input.scene.bodies().velocity_scale(), 2);
 }
 
+// Of a total; none without error bars, or where it is not known.
+auto error_of(RunTotal name) {
+  return [name](const Finished& run) {
+    const auto& estimate = run.result.error_estimate;
+    if (!estimate) return std::optional<double>();
+    const auto found = std::ranges::find(estimate->totals, name, &NamedTotal::name);
+    return found == estimate->totals.end() ? std::nullopt : found->total.error;
+  };
+}
+
+// What the warnings are about, in a word each, the same for all that have no word of their own.
+std::string warnings_by_kind(const Finished& run) {
+  std::vector<std::string_view> kinds;
+  const std::size_t n_units = doubtful_units(run.input).size();
+  if (n_units > 0) kinds.push_back("units");
+  const auto beyond = beyond_the_model(run.input, run.result);
+  for (const auto& [kind, sentence] : beyond) kinds.push_back(kind);
+  if (run.result.warnings.size() > n_units + beyond.size()) kinds.push_back("computation");
+  return fmt::format("{}", fmt::join(kinds, ";"));
+}
+
 // The columns that runs.csv has of a run.
 const Columns<Finished>& swept_run_columns() {
   static const Columns<Finished> columns = {
@@ -135,20 +158,30 @@ const Columns<Finished>& swept_run_columns() {
       {"first_section_yield_s", member(&Result::first_section_yield)},
       {"first_contact_yield_s", member(&Result::first_contact_yield)},
       {"max_force_N", member(&Result::max_force)},
+      {"max_force_error_N", error_of(RunTotal::peak_force)},
       {"max_force_time_s", &time_of_max_force},
       {"max_indentation_m", member(&Result::max_indentation)},
+      {"max_indentation_error_m", error_of(RunTotal::max_indentation)},
       {"residual_indentation_m", &residual_indentation},
+      {"residual_indentation_error_m", error_of(RunTotal::residual_indentation)},
       {"permanent_set_m", &permanent_set},
+      {"permanent_set_error_m", error_of(RunTotal::permanent_set)},
       {"impulse_Ns", &total_impulse},
+      {"impulse_error_Ns", error_of(RunTotal::impulse)},
       {"striker_velocity_m_per_s", member(&Result::striker_velocity)},
+      {"striker_velocity_error_m_per_s", error_of(RunTotal::striker_velocity)},
       {"beam_mean_velocity_m_per_s", member(&Result::beam_mean_velocity)},
+      {"beam_mean_velocity_error_m_per_s", error_of(RunTotal::beam_mean_velocity)},
       {"restitution", member(&Result::restitution)},
+      {"restitution_error", error_of(RunTotal::restitution)},
       {"striker_energy_share", &striker_energy_share},
+      {"striker_energy_share_error", error_of(RunTotal::striker_energy_share)},
       {"bending_plastic_J", at_end(&Energies::bending_plastic)},
       {"contact_plastic_J", at_end(&Energies::contact_plastic)},
       {"beam_damping_J", at_end(&Energies::beam_damping)},
       {"contact_over", [](const Finished& run) { return run.result.contact_over ? 1 : 0; }},
-      {"max_energy_error", member(&Result::max_energy_error)}};
+      {"max_energy_error", member(&Result::max_energy_error)},
+      {"warnings", &warnings_by_kind}};
   return columns;
 }
 

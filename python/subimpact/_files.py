@@ -3,6 +3,7 @@ module of C++."""
 
 from __future__ import annotations
 
+import csv
 import hashlib
 import io
 import json
@@ -146,10 +147,10 @@ class Files:
                                f"together; {_AGAIN}")
 
     def lines(self, name: str) -> Iterator[list[str]]:
-        """The heading and the rows of a table; no cell is quoted."""
+        """The heading and the rows of a table; in those of a sweep texts may be quoted."""
         with io.TextIOWrapper(self.open(name), "utf-8", "replace", newline="\n") as file:
             for line in file:
-                yield line.rstrip("\n").split(",")
+                yield next(csv.reader([line])) if '"' in line else line.rstrip("\n").split(",")
 
     def table(self, name: str) -> list[dict[str, str]]:
         """The rows of a short table. Raises ResultsError."""

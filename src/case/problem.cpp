@@ -167,7 +167,9 @@ ResolvedRun resolve(const Case& input) {
   ResolvedRun run = resolve(problem_of(input), input);
   run.parts().warnings = doubtful_units(input);
   run.parts().warnings_of_result = [input](const Result& result) {
-    return beyond_the_model(input, result);
+    std::vector<std::string> sentences;
+    for (auto& each : beyond_the_model(input, result)) sentences.push_back(each.sentence);
+    return sentences;
   };
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   run.parts().setup_seconds = taken.count();

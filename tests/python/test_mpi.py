@@ -24,4 +24,5 @@ def test_tables_of_three_ranks_are_the_same(tmp_path):
     done = subprocess.run([*launch, *command, "--mpi", "--out", str(tmp_path / "mpi")],
                           capture_output=True, text=True, timeout=200)
     assert done.returncode == 0, done.stderr
+    assert "2 of the ranks run cases, and one hands them out" in done.stderr
     assert tables(tmp_path / "mpi") == tables(tmp_path / "serial")

@@ -182,6 +182,10 @@ def test_a_map_has_the_number_of_every_cell_and_tells_one_from_two():
     mesh = axes.collections[0]
     assert mesh.to_rgba(1) != mesh.to_rgba(2) and axes.get_xlabel() == "striker.velocity, m/s"
     assert any(bars.get_hatch() for bars in axes.collections)
+    for other, hatched in (({"restitution_error": [0.01, 0.2, np.nan, 0, 0.01, 0.01]}, True), ({"restitution_error": [0.01] * 6}, False),
+                           ({"warnings": ["", "rotations", "", "", "", ""]}, True), ({"warnings": [np.nan] * 6}, False)):
+        axes = plot.sweep_map(grid(all_certain=[1, 1, 0, 1, 1, 1], restitution=[0.5] * 6, **other), column="restitution")
+        assert any(bars.get_hatch() for bars in axes.collections) == hatched  # by the doubt of what it shows, not of counts
     with pytest.raises(plot.Absent, match="two keys"):
         plot.sweep_map(grid(**{"striker.mass": [0.1] * 6}))
 
@@ -197,7 +201,9 @@ def test_a_histogram_marks_mean_and_quantiles():
     forces = 1e3 * np.arange(101.0)
     axes = plot.histogram({"max_force_N": forces}, None, "max_force_N")
     assert axes.lines[0].get_xdata()[0] == pytest.approx(50) and axes.get_xlabel() == "max force, kN" and "5 %: 5, 95 %: 95" in axes.get_title()
-    assert sum(bar.get_height() for bar in axes.containers[0]) == 101
+    assert sum(bar.get_height() for bar in axes.containers[0]) == 101 and axes.get_title().startswith("101 of 101 runs")
+    some = plot.histogram({"restitution": np.where(forces < 3e4, forces, np.nan)}, None, "restitution")
+    assert some.get_title().startswith("30 of 101 runs")
     with pytest.raises(TypeError, match="column="):
         plot.histogram({"max_force_N": forces}, "max_force_N")
 

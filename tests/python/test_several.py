@@ -1,5 +1,6 @@
 """Pages of sweeps and of several runs."""
 
+import csv
 import json
 import math
 import re
@@ -58,6 +59,10 @@ def test_a_sweep_has_maps_histograms_and_all_its_runs(population, tmp_path, prog
     text = well_formed((tmp_path / "out" / "sweep.html").read_text())
     assert 'id="figure-map-n_sub_impacts"' in text and 'id="figure-histograms"' in text
     assert text.partition('id="runs"')[2].count("<tr>") == 10
+    with open(tmp_path / "out" / "runs.csv") as file:
+        forces = [float(row["max_force_N"]) for row in csv.DictReader(file)]
+    row = re.search(r"<tr><td>max_force_N</td>(.*?)</tr>", text)[1]
+    assert f"<td>9</td><td>{np.mean(forces):.6g} ± " in row and f"<td>{np.std(forces, ddof=1):.4g}</td>" in row and ", of 9 runs" in row
     assert "sweep.html" in json.loads((tmp_path / "out" / "manifest.json").read_text())["files"]
     with open(tmp_path / "out" / "runs.csv", "a") as file:
         file.write("more\n")

@@ -268,6 +268,49 @@ def test_cases_that_are_refused_are_rows(elastic, tmp_path):
     assert "contact.stiffness" in rows[1]["message"]
 
 
+@pytest.mark.parametrize("axis", [{"striker.velocity": [1.0, 2.0, 4.0]}, {"contact.stiffness": [1e9, 2e9, 5e9]}])
+def test_a_sweep_goes_on_without_making_its_stored_cases_again(without_rows, tmp_path, monkeypatch, axis):
+    """Which takes a coarse run each where the sweep changes what the model is chosen by."""
+    before = si.sweep(without_rows, axis, out=tmp_path, workers=0)
+    expected = tables(tmp_path)
+    with monkeypatch.context() as blind:
+        blind.setattr(si.Plan, "case_of", lambda *_: pytest.fail("a stored case was made"))
+        assert si.sweep(before.plan, out=tmp_path, workers=0).outcomes == {"completed": 3}
+    assert tables(tmp_path) == expected
+    key, values = next(iter(axis.items()))
+    other = si.sweep(without_rows.changed({key: values[1]}), {"striker.mass": [without_rows["striker.mass"]]}, out=tmp_path, workers=0)
+    assert other.outcomes == {"completed": 1}  # found by its identity
+
+
+def test_warnings_by_kind_and_errors_of_totals_are_columns_of_a_sweep(yielding, tmp_path):
+    yielding = yielding.changed({"output.interval": 0.0, "output.sections": []})
+    sweep = si.sweep(yielding, {"striker.mass": [0.05, 1.6], "striker.velocity": [2.0, 24.0]}, out=tmp_path, workers=0)
+    kinds = sweep.runs["warnings"].fillna("")
+    for number in range(4):
+        alone = si.run(sweep.plan.case_of(number), body_errors=False)
+        assert len(list(filter(None, kinds[number].split(";")))) == len(alone.summary["warnings"])
+        for column, total in (("max_force_error_N", "peak_force_N"), ("impulse_error_Ns", "impulse_Ns"), ("restitution_error", "restitution")):
+            error = alone.summary["totals"].get(total, {"error": None})["error"]
+            assert sweep.runs[column][number] == pytest.approx(np.nan if error is None else error, rel=1e-12, nan_ok=True)
+    assert kinds[0] == "" and "rotations" in kinds[3].split(";")
+
+
+def test_a_sweep_of_which_most_cases_are_refused_says_why_and_fails(plan_file):
+    plan_file.write_text(PLAN.replace("[axes]", '[axes]\ncontact.law = ["foundation", "curve", "hertz"]').replace("n = 10", "n = 2"))
+    done = command(plan_file, "--out", plan_file.parent / "out")
+    assert done.returncode == 3 and "32 refused" in done.stdout
+    assert "32 of 48 cases refused, the first of them run 0: " in done.stderr and "contact.stiffness" in done.stderr
+    with open(plan_file.parent / "out" / "runs.csv") as file:
+        first = next(csv.DictReader(file))
+    assert first["message"] in done.stderr and "," in first["message"]
+
+
+def test_a_range_of_a_plan_is_that_of_numpy_to_the_last_digit():
+    for first, last, n in ((2, 16, 50), (0.001, 0.0037, 4000), (-3, 7.1, 777)):
+        assert spaced(first, last, n) == np.linspace(first, last, n).tolist()
+    assert spaced(0.05, 0.4, 1000, "log") == np.geomspace(0.05, 0.4, 1000).tolist()
+
+
 def test_the_command_parts_and_merges(plan_file, tmp_path):
     assert command(plan_file, "--out", tmp_path / "whole").returncode == 0
     for part in ("0:150", "150:300", "300:"):
@@ -392,12 +435,12 @@ def test_a_signal_that_the_process_ignores_ends_no_sweep(population, tmp_path):
 
 
 def test_cells_hold_no_character_that_breaks_a_table_or_obeys_a_terminal(without_rows, tmp_path):
-    """Nor does a quote at the beginning of a cell open a quoted one."""
+    """Commas and quotes stay what they are: their cells are quoted."""
     titles = ["a\rb", "a\nb", "\x1b[31m", "\x85", '"q', "a,b", "\0"]
     sweep = si.sweep(without_rows, {"title": titles}, out=tmp_path, workers=0)
     text = (tmp_path / "runs.csv").read_text(encoding="utf-8")
     assert not [c for c in text if c != "\n" and (ord(c) < 32 or 127 <= ord(c) < 160)]
-    assert list(sweep.runs["title"]) == ["a b", "a b", "\\x1b[31m", "\\xc2\\x85", "'q", "a;b", "\\x00"]
+    assert list(sweep.runs["title"]) == ["a b", "a b", "\\x1b[31m", "\\xc2\\x85", '"q', "a,b", "\\x00"]
     assert sweep.outcomes == {"completed": 7}
 
 

@@ -16,9 +16,14 @@ std::vector<std::string> doubtful_units(const Case& input);
 /// The sentence about the number of one key; empty if its unit is not doubtful.
 std::string doubtful_unit(const Case& input, std::string_view key);
 
+/// A warning: what it is about, in a word, and the sentence.
+struct Beyond {
+  std::string_view kind;
+  std::string sentence;
+};
 /// Results of a run that exceed the validity of the model (docs/model.md), one sentence each with
 /// the number and what to do; empty if there are none. Rotations are sampled at separations and at
 /// the end of the run.
-std::vector<std::string> beyond_the_model(const Case& input, const Result& result);
+std::vector<Beyond> beyond_the_model(const Case& input, const Result& result);
 
 }  // namespace subimpact

@@ -17,13 +17,14 @@ from .._errors import ResultsError
 from .._files import Files
 from ..case import keys
 from ..plot import Absent, comparison, histograms, sweep_map
+from ..plot.sweeps import CHIEF, error_column
 from ..plot.directory import arrays_of, caption_of, letters, svg_of
 from ..result import Result, read_results
 from .markup import escaped, figures, headlines, in_print, paragraphs, table, tiles, whole
 from .run import errors_of
 
 _MAPPED = ("n_sub_impacts", "max_force_N", "restitution", "permanent_set_m")
-_SHOWN = ("outcome", "n_sub_impacts", "n_certain", "max_force_N", "impulse_Ns", "restitution", "permanent_set_m", "message")
+_SHOWN = ("outcome", "n_sub_impacts", "n_certain", "max_force_N", "impulse_Ns", "restitution", "permanent_set_m", "warnings", "message")
 _MOST_ROWS = 2000
 
 Pair = tuple[Optional[int], Optional[int]]  # of sub-impacts of two runs that correspond
@@ -56,7 +57,13 @@ def _certainty(columns: Mapping[str, Any], outcomes: Counter[str], n: int) -> st
             lines.append((False, "Not certain:", f"the counts of {_counted(n_doubtful, 'run')}, which the map hatches; a pattern among "
                           "them may be that of their errors."))
     return headlines([*lines, *((False, "Not certain:", f'{_counted(k, "run")} with the outcome "{kind}".')
-                                for kind, k in sorted(outcomes.items()) if kind != "completed")])
+                                for kind, k in sorted(outcomes.items()) if kind != "completed"), *_warnings(columns, n)])
+
+
+def _warnings(columns: Mapping[str, Any], n: int) -> list[tuple[bool, str, str]]:
+    kinds = Counter(kind for cell in columns.get("warnings", ()) if isinstance(cell, str) and cell for kind in cell.split(";"))
+    return [(False, "Not certain:", f"{', '.join(f'{kind} in {k}' for kind, k in kinds.most_common())} of {_counted(n, 'run')}: warnings, "
+             "whose sentences a run of its own has (the command below); the maps hatch them.")] if kinds else []
 
 
 def _values(column: Any, unit: str) -> str:
@@ -64,6 +71,24 @@ def _values(column: Any, unit: str) -> str:
         return f"{len(set(column.tolist()))} different texts"
     known = column[np.isfinite(column)]
     return f"{len(np.unique(known))} different, {known.min():.6g} to {known.max():.6g} {unit}" if len(known) else ""
+
+
+def _statistics(columns: Mapping[str, Any]) -> str:
+    """Mean, deviation, quantiles and errors of the chief numbers over all runs."""
+    rows = []
+    for name in CHIEF:
+        values = columns.get(name, np.array([]))
+        values = values[np.isfinite(values)] if values.dtype.kind == "f" else []
+        if len(values) < 2 or np.ptp(values) == 0.0:
+            continue
+        errors = columns.get(error_column(columns, name) or "", np.array([np.nan]))
+        known = errors[np.isfinite(errors)] if errors.dtype.kind == "f" else []
+        deviation = np.std(values, ddof=1)
+        rows.append([name, str(len(values)), f"{np.mean(values):.6g} +- {deviation / np.sqrt(len(values)):.2g}", f"{deviation:.4g}",
+                     "{:.5g} to {:.5g}".format(*np.quantile(values, (0.05, 0.95))),
+                     f"{np.median(known):.2g}, {np.max(known):.2g}, of {len(known)} runs" if len(known) else "not known"])
+    heading = ["number", "runs", "mean, its standard error", "standard deviation", "5 % to 95 %", "error of a run: median, largest"]
+    return "<h2>Over all runs</h2>\n" + table(heading, rows, "statistics") if rows else ""
 
 
 def sweep_page(files: Files) -> str:
@@ -98,7 +123,7 @@ def sweep_page(files: Files) -> str:
             "<h2>Keys that differ</h2>\n"
             + table(["key", "meaning", "values"], [(key, known[key].meaning if key in known else "", _values(columns[key], units[key]))
                                                    for key in all_keys])
-            + "<h2>Figures</h2>\n" + _figures(drawings, captions)
+            + _statistics(columns) + "<h2>Figures</h2>\n" + _figures(drawings, captions)
             + "<h2>Runs</h2>\n" + table(listed, [[row[name] for name in listed] for row in rows[:_MOST_ROWS]], "runs")
             + paragraphs([f"The first {_MOST_ROWS} of {len(rows)} runs are shown; runs.csv has all"] if len(rows) > _MOST_ROWS else [])
             + f"<p>To make one of them alone, with the errors of its mesh too; the first, for example:</p>\n<pre>{escaped(command)}</pre>\n")

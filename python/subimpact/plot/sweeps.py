@@ -20,6 +20,7 @@ CHIEF = ("n_sub_impacts", "first_separation_s", "max_force_N", "impulse_Ns", "re
 _KEYS = keys()
 _UNITS = {"s": ("µs", 1e6), "N": ("kN", 1e-3), "m": ("mm", 1e3), "J": ("J", 1.0), "Ns": ("mN s", 1e3)}
 _MOST_CELLS_WITH_NUMBERS = 600
+_LARGE_ERROR = 0.1  # of a number, from which on a map hatches it
 # 0, 1, 2 ... each of a colour of its own; more are shaded.
 _COUNTS = ("#FFFFFF", "#56B4E9", "#E69F00", "#009E73", "#F0E442", "#CC79A7", "#D55E00", "#0072B2", "#A6761D",
            "#B3B3B3")
@@ -43,6 +44,26 @@ def _numbers(runs: Table, column: str) -> Any:
     return values.astype(float)
 
 
+def error_column(runs: Table, column: str) -> str | None:
+    """That with the error of a number: first_separation_error_s of first_separation_s."""
+    names = (f"{column[:i]}_error{column[i:]}" for i in range(len(column) + 1))
+    return next((name for name in names if name in runs), None)
+
+
+def _is_doubtful(runs: Table, column: str) -> Any:
+    """By run: a count that is not certain, an error that is large or not known, a warning."""
+    certain = np.asarray(runs["all_certain"] if "all_certain" in runs else np.full(len(runs["run"]), np.nan))
+    judged = np.isin(certain, (0, 1))
+    if error := error_column(runs, column):
+        with np.errstate(invalid="ignore"):
+            doubtful = judged & ~(np.asarray(runs[error], float) <= _LARGE_ERROR * np.abs(np.asarray(runs[column], float)))
+    else:
+        doubtful = judged & (certain == 0) & column.startswith("n_")
+    if "warnings" in runs:
+        doubtful = doubtful | [isinstance(kinds, str) and kinds != "" for kinds in runs["warnings"]]
+    return doubtful
+
+
 def _grid(runs: Table) -> tuple[str, str]:
     """The two keys that the map is over: y and x."""
     columns = list(runs)
@@ -61,7 +82,8 @@ def _grid(runs: Table) -> tuple[str, str]:
 @figure([[0]], height=5.0)
 def sweep_map(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
     """A number of each run over the two keys that the sweep varies; of several runs in a cell the mean.
-    Hatched: runs that are not certain. Grey: no run, or one that did not complete."""
+    Hatched: a count that is not certain, a number with an error that is above a tenth of it or not known, a run with
+    warnings. Grey: no run, or one that did not complete."""
     y_key, x_key = _grid(runs)
     xs, x = np.unique(runs[x_key], return_inverse=True)
     ys, y = np.unique(runs[y_key], return_inverse=True)
@@ -80,8 +102,7 @@ def sweep_map(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
         bar.set_ticks(np.arange(0, norm.boundaries[-1], -(-len(norm.boundaries) // 16)))
         bar.minorticks_off()
     doubtful = np.zeros_like(total)
-    if "all_certain" in runs:
-        np.add.at(doubtful, (y, x), np.asarray(runs["all_certain"]) == 0)
+    np.add.at(doubtful, (y, x), known & _is_doubtful(runs, column))
     if doubtful.any():
         axes.pcolor(np.where(doubtful > 0, 1.0, np.nan), hatch="////", alpha=0.0)
     for size, keys, axis, key in ((len(xs), xs, axes.xaxis, x_key), (len(ys), ys, axes.yaxis, y_key)):
@@ -124,7 +145,7 @@ def histogram(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
     dotted: the median."""
     label, factor = _name_and_unit(column)
     values = factor * _numbers(runs, column)
-    values = values[np.isfinite(values)]
+    n_all, values = len(values), values[np.isfinite(values)]
     if column.startswith("n_") and np.ptp(values) < 60:
         edges: Any = np.arange(values.min(), values.max() + 2) - 0.5
     else:
@@ -134,7 +155,7 @@ def histogram(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
     axes.hist(values, edges, color=COLOURS[5], edgecolor="white", linewidth=0.5)
     axes.axvline(values.mean(), color=COLOURS[1])
     axes.axvline(middle, color=COLOURS[6], linestyle=":")
-    axes.set_title(f"mean {values.mean():.4g}; 5 %: {low:.4g}, 95 %: {high:.4g}")
+    axes.set_title(f"{len(values)} of {n_all} runs; mean {values.mean():.4g}; 5 %: {low:.4g}, 95 %: {high:.4g}")
     axes.set(xlabel=label, ylabel="runs")
     for axis in (axes.yaxis, *([axes.xaxis] if column.startswith("n_") else [])):
         axis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True, min_n_ticks=1))

@@ -25,7 +25,7 @@ _EXAMPLES = """examples:
   subimpact-sweep plan.toml --merge part-1 part-2           (and then their tables)
 
 exit status: 0 done; 2 bad command line, plan, case or directory; 3 cases are missing or crashed,
-or files cannot be written; 130, 143, 129 stopped by Ctrl-C, SIGTERM, SIGHUP, with all rows so far
+most did not complete, or files cannot be written; 130, 143, 129 stopped by Ctrl-C, SIGTERM, SIGHUP, with all rows so far
 stored and in the tables. A sweep that was stopped goes on where it was: give the same command again."""
 
 _MOST_DIGITS = 18
@@ -132,7 +132,8 @@ def _run(options: argparse.Namespace, executor: Any) -> int:
               f"{f', {done.n_missing} missing' if done.n_missing else ''}")
         print(f"files in {printable(str(done.directory))}")
     is_whole = not done.n_missing or options.only is not None
-    return 0 if is_whole and "crashed" not in done.outcomes else 3
+    most = 2 * done.outcomes.get("completed", 0) >= sum(done.outcomes.values())
+    return 0 if is_whole and most and "crashed" not in done.outcomes else 3
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -145,6 +146,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 return _run(options, client)
         if options.mpi:
             futures: Any = importlib.import_module("mpi4py.futures")
+            n = max(importlib.import_module("mpi4py.MPI").COMM_WORLD.Get_size() - 1, 1)
+            if not options.quiet:
+                _say(f"{n} of the ranks run cases, and one hands them out; mpiexec -n {n + 2} has {n + 1} that run cases")
             with futures.MPIPoolExecutor() as executor:
                 return _run(options, executor)
         return _run(options, None)

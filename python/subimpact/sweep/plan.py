@@ -9,9 +9,12 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from hashlib import sha256
 from itertools import islice
 from pathlib import Path
 from typing import Any, Union
+
+import numpy as np
 
 from .. import _core
 from .._checks import is_positive, is_whole, seconds
@@ -165,6 +168,14 @@ class Plan:
     def case_of(self, number: int) -> Case:
         """A case of the plan, by its number from 0."""
         return self.base.changed(dict(self.settings(number)))
+
+    def place(self, number: int) -> str:
+        """A hash of the base case and of what a case changes in it: cases of one place have one identity."""
+        return sha256(f"{self._base_identity} {self.settings(number)!r}".encode()).hexdigest()
+
+    @cached_property
+    def _base_identity(self) -> str:
+        return self.base.identity(self.how)
 
     @property
     def how(self) -> str:
@@ -330,12 +341,8 @@ class _Spaced:
         return self.n
 
     def __iter__(self) -> Iterator[float]:
-        first, last, n = self.first, self.last, self.n
-        for i in range(n - 1):
-            part = i / (n - 1)
-            is_log = self.spacing == "log"
-            yield first * (last / first) ** part if is_log else first + (last - first) * part
-        yield last
+        ends = self.first, self.last, self.n
+        yield from (np.geomspace(*ends) if self.spacing == "log" else np.linspace(*ends)).tolist()
 
 
 def _range(key: str, values: Mapping[str, Any]) -> _Spaced:

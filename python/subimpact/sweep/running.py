@@ -76,8 +76,9 @@ class _Sink:
     """Collects rows and stores them twice per second."""
 
     def __init__(
-        self, store: Store, identities: dict[int, str], n_done: int, n_all: int, progress: Progress | None
+        self, plan: Plan, store: Store, identities: dict[int, str], n_done: int, n_all: int, progress: Progress | None
     ) -> None:
+        self._plan = plan
         self._store = store
         self._identities = identities
         self._rows: list[Row] = []
@@ -88,7 +89,7 @@ class _Sink:
 
     def __call__(self, rows: dict[int, Row]) -> None:
         self._identities.update((number, row.identity) for number, row in rows.items())
-        self._rows += rows.values()
+        self._rows += [row._replace(place=self._plan.place(number)) for number, row in rows.items()]
         self._n_done += len(rows)
         if time.monotonic() - self._last >= _SECONDS_BETWEEN_COMMITS:
             self.flush()
@@ -238,9 +239,10 @@ def sweep(
         missing = list(numbers)
         # Without rows to go on from, the identities come with the rows: each takes time to find.
         if known or _has_equal_cases(plan):
-            identities = {number: identity_of(plan, number) for number in range(len(plan))}
+            places = store.places()
+            identities = {number: places.get(plan.place(number)) or identity_of(plan, number) for number in range(len(plan))}
             missing = _missing(numbers, identities, known)
-        sink = _Sink(store, identities, len(numbers) - len(missing), len(numbers), progress)
+        sink = _Sink(plan, store, identities, len(numbers) - len(missing), len(numbers), progress)
         try:
             _hand_out(plan, missing, sink, workers, memory, executor)
         finally:

@@ -7,6 +7,7 @@ again.
 
 from __future__ import annotations
 
+import csv
 import os
 import sqlite3
 import stat
@@ -23,14 +24,14 @@ from .worker import COLUMNS, Row
 FILE = "sweep.sqlite"
 KIND = "sweep"  # of results, in manifest.json
 SECONDS_OF_THE_DYING = 2.0  # for which workers of a killed sweep may hold its lock
-_LAYOUT = 3
+_LAYOUT = 4
 _READ_AT_ONCE = 500  # rows; SQLite allows a query at least 999 values
 _APPLICATION = 0x53554249  # "SUBI"
 _MAGIC = b"SQLite format 3\0"
-_ALL = "SELECT identity, outcome, cells, sub_impacts, checksum FROM rows"
+_ALL = "SELECT identity, outcome, cells, sub_impacts, place, checksum FROM rows"
 _TABLE = (
     "CREATE TABLE rows (identity TEXT PRIMARY KEY, outcome TEXT NOT NULL, cells TEXT NOT NULL, "
-    "sub_impacts TEXT NOT NULL, checksum INTEGER NOT NULL)"
+    "sub_impacts TEXT NOT NULL, place TEXT NOT NULL, checksum INTEGER NOT NULL)"
 )
 
 
@@ -39,12 +40,12 @@ def checksum(row: Row) -> int:
     return zlib.crc32("\n".join(row).encode())
 
 
-def _checked(values: tuple[str, str, str, str, int]) -> Row | None:
+def _checked(values: tuple[str, str, str, str, str, int]) -> Row | None:
     """The row, if it is as it was written."""
     try:
-        row = Row(*values[:4])
-        is_right = checksum(row) == values[4] and row.cells.count(",") == len(COLUMNS) - 1
-    except (AttributeError, TypeError, UnicodeError):
+        row = Row(*values[:5])
+        is_right = checksum(row) == values[5] and len(next(csv.reader([row.cells]))) == len(COLUMNS)
+    except (AttributeError, TypeError, UnicodeError, csv.Error, StopIteration):
         return None
     return row if is_right else None
 
@@ -215,7 +216,7 @@ class Store:
     def _insert(connection: sqlite3.Connection, rows: Iterable[Row]) -> None:
         with connection:
             connection.executemany(
-                "INSERT OR REPLACE INTO rows VALUES (?, ?, ?, ?, ?)",
+                "INSERT OR REPLACE INTO rows VALUES (?, ?, ?, ?, ?, ?)",
                 [(*row, checksum(row)) for row in rows],
             )
 
@@ -233,13 +234,17 @@ class Store:
         """The outcome of every row by its identity."""
         return dict(self._connection.execute("SELECT identity, outcome FROM rows"))
 
+    def places(self) -> dict[str, str]:
+        """The identity of every row by its place."""
+        return dict(self._connection.execute("SELECT place, identity FROM rows"))
+
     def rows_of(self, identities: Sequence[str]) -> Iterator[Row | None]:
         """The rows with these identities, in their order; None for those there are not."""
         for start in range(0, len(identities), _READ_AT_ONCE):
             part = identities[start : start + _READ_AT_ONCE]
             marks = ",".join("?" * len(part))
             found = self._connection.execute(f"{_ALL} WHERE identity IN ({marks})", part)
-            rows = {values[0]: Row(*values[:4]) for values in found}
+            rows = {values[0]: Row(*values[:5]) for values in found}
             yield from map(rows.get, part)
 
     def drop(self, outcomes: Iterable[str]) -> None:
@@ -252,7 +257,7 @@ class Store:
     def rows(self) -> Iterator[Row]:
         """All rows."""
         for values in self._connection.execute(_ALL):
-            yield Row(*values[:4])
+            yield Row(*values[:5])
 
     def close(self) -> None:
         """Closes the file; another process may open it then. What was not committed is dropped."""

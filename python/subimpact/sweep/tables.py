@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
@@ -24,7 +25,7 @@ HDF5 = "sweep.h5"
 def write_tables(plan: Plan, identities: Mapping[int, str], store: Store) -> Counter[str]:
     """Writes runs.csv and sub_impacts.csv, both as one, from the rows there are, which have the
     identities of the plan's cases, and base.toml, the case that its keys change; returns how many
-    rows have each outcome. Raises OutputError."""
+    rows have each outcome, and notes why the first of each other than "completed" has it. Raises OutputError."""
     try:
         with _new(store.staging / RUNS) as runs, _new(store.staging / SUB_IMPACTS) as sub_impacts:
             outcomes = _write_rows(plan, identities, store, runs, sub_impacts)
@@ -53,6 +54,7 @@ def _write_rows(
 ) -> Counter[str]:
     keys = plan.keys()
     outcomes: Counter[str] = Counter()
+    reasons: dict[str, str] = {}
     runs.write(",".join(["run", *keys, *COLUMNS, "message"]) + "\n")
     sub_impacts.write("run," + events_heading() + "\n")
     numbers = sorted(identities)
@@ -62,12 +64,15 @@ def _write_rows(
             continue
         outcome = cell(row.outcome)
         outcomes[outcome] += 1
+        if outcome != "completed" and outcome not in reasons:
+            reasons[outcome] = f"run {number}: {next(csv.reader([row.cells]))[-1]}"
         values = dict(plan.settings(number))
         cells = [str(number), *(cell(values[key]) for key in keys), outcome, one_line(row.cells)]
         runs.write(",".join(cells) + "\n")
         if row.sub_impacts:
             lines = row.sub_impacts.removesuffix("\n").replace("\n", f"\n{number},")
             sub_impacts.write(f"{number},{lines}\n")
+    store.notes += [f"{outcomes[outcome]} of {len(numbers)} cases {outcome}, the first of them {reason}" for outcome, reason in reasons.items()]
     return outcomes
 
 

@@ -26,11 +26,11 @@ class Row(NamedTuple):
     outcome: str
     cells: str  #: of COLUMNS after the outcome, and the message
     sub_impacts: str  #: lines of events.csv without their heading
+    place: str = ""  #: in a plan, Plan.place: by which the identity is found again without making the case
 
 
 def cell(value: object) -> str:
-    """A value as the program's tables have it: 17 digits, and in texts no commas, no control
-    characters and no quote at the beginning, which readers would take for a quoted cell."""
+    """A value as a cell of CSV: 17 digits; texts without control characters, quoted where they have commas or quotes."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -39,8 +39,8 @@ def cell(value: object) -> str:
         return format(value, ".17g")
     if isinstance(value, (list, tuple)):
         return ";".join(cell(item) for item in value)
-    text = one_line(str(value)).replace(",", ";")
-    return "'" + text[1:] if text.startswith('"') else text
+    text = one_line(str(value))
+    return '"' + text.replace('"', '""') + '"' if "," in text or '"' in text else text
 
 
 def events_heading() -> str:

@@ -206,7 +206,7 @@ constexpr double deepest_indentation = 0.1;  // over the nose radius
 constexpr double least_pull = 0.01;          // over the largest force of a support
 
 // Supports that hold the beam down, where it may only rest on them.
-void add_pulls(const Beam& beam, const Result& result, std::vector<std::string>& sentences) {
+void add_pulls(const Beam& beam, const Result& result, std::vector<Beyond>& found) {
   double largest = 0.0;
   for (const auto& forces : result.reactions) {
     if (forces) largest = std::max({largest, forces->largest.value, -forces->smallest.value});
@@ -221,11 +221,11 @@ void add_pulls(const Beam& beam, const Result& result, std::vector<std::string>&
   }
   if (!pulls) return;
   const auto& pull = result.reactions[*pulls]->largest;
-  sentences.push_back(
-      fmt::format("a support pulls the beam by up to {} N, at x = {} at {:.4g} us: a beam that "
-                  "only rests on it "
-                  "would lift off there, which the model leaves out",
-                  with_significant(pull.value, 3), *pulls == 0 ? "0" : "length", us * pull.time));
+  found.push_back(
+      {"support_pulls",
+       fmt::format("a support pulls the beam by up to {} N, at x = {} at {:.4g} us: a beam that "
+                   "only rests on it would lift off there, which the model leaves out",
+                   with_significant(pull.value, 3), *pulls == 0 ? "0" : "length", us * pull.time)});
 }
 
 }  // namespace
@@ -243,19 +243,20 @@ std::string doubtful_unit(const Case& input, std::string_view key) {
   return {};
 }
 
-std::vector<std::string> beyond_the_model(const Case& input, const Result& result) {
+std::vector<Beyond> beyond_the_model(const Case& input, const Result& result) {
   const Beam& beam = input.scene.beam;
   const std::optional<double>& nose = input.scene.striker.nose_radius;
   const bool is_rigid = input.model.mesh == MeshKind::rigid;
   const bool is_held =
       !beam.stretches() && beam.ends[0] != EndSupport::free && beam.ends[1] != EndSupport::free;
   const double indentation = result.max_indentation, set = result.largest_displacement;
-  std::vector<std::string> sentences;
-  const auto add = [&]<class... Values>(bool beyond, fmt::format_string<const Values&...> text,
+  std::vector<Beyond> found;
+  const auto add = [&]<class... Values>(bool beyond, std::string_view kind,
+                                        fmt::format_string<const Values&...> text,
                                         const Values&... values) {
-    if (beyond) sentences.push_back(fmt::format(text, values...));
+    if (beyond) found.push_back({kind, fmt::format(text, values...)});
   };
-  add(result.largest_rotation > largest_rotation,
+  add(result.largest_rotation > largest_rotation, "rotations",
       "{} by up to {:.2g} rad: the model is for rotations below {} rad",
       is_rigid ? "the beam turns" : "sections turn", result.largest_rotation, largest_rotation);
   double strain = 0.0;
@@ -268,23 +269,24 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
       "\"elastic\" leaves out",
       strain / first_yield);
   const double thickness = beam.height() / beam.length;
-  add(!is_rigid && beam.shears() && thickness > thickest_with_shear,
+  add(!is_rigid && beam.shears() && thickness > thickest_with_shear, "thickness",
       "the beam's thickness is {:.2g} of its length: plane sections, as in every beam theory, do "
       "not describe so thick a body",
       thickness);
   add(!is_rigid && !beam.shears() && !input.theory_is_chosen && thickness > thickest_without_shear,
+      "no_shear",
       "the beam's thickness is {:.2g} of its length, and its theory leaves out shear; use "
       "beam.theory = \"timoshenko\"",
       thickness);
-  add(!is_rigid && is_held && set / beam.height() > largest_deflection,
+  add(!is_rigid && is_held && set / beam.height() > largest_deflection, "stretching",
       "the struck point moves by {:.3g} mm, {:.2g} times the thickness, on a beam held at both "
       "ends: "
       "if its supports cannot approach each other, it stretches, which stiffens it: set "
       "beam.axial = \"held\"",
       mm * set, set / beam.height());
-  add_pulls(beam, result, sentences);
-  if (!nose) return sentences;
-  add(indentation / *nose > deepest_indentation,
+  add_pulls(beam, result, found);
+  if (!nose) return found;
+  add(indentation / *nose > deepest_indentation, "indentation",
       "the indentation reaches {:.3g} mm, {:.3g} of the nose radius: contact laws are for small "
       "indentations (below {} of it)",
       mm * indentation, indentation / *nose, deepest_indentation);
@@ -297,11 +299,12 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
   const double pressure = 1.5 * result.max_force / (M_PI * square);
   add(input.scene.contact.kind == ContactKind::hertz && radii.is_circle() &&
           pressure > yield_pressure_over_stress * beam.yield_stress,
+      "contact_yields",
       "the contact pressure reaches {:.3g} MPa, {:.2g} times the beam's yield stress: a Hertz "
       "contact yields from {} times on, which contact.law = \"hertz\" leaves out and \"sphere\" "
       "has",
       MPa * pressure, pressure / beam.yield_stress, yield_pressure_over_stress);
-  return sentences;
+  return found;
 }
 
 }  // namespace subimpact

@@ -10,10 +10,10 @@ function actOn(event, actions) {
   action();
 }
 
-// Makes window.page of the data of this page, once the page is painted.
+// Makes window.page of the data of this page, before the page has loaded: who photographs it then sees it drawn.
 function startPage(make) {
   document.documentElement.classList.add('live');
-  requestAnimationFrame(() => setTimeout(() => { window.page = make(JSON.parse(byId('data').textContent)); }));
+  window.page = make(JSON.parse(byId('data').textContent));
 }
 
 // An array of numbers: 64-bit or 32-bit floating point, or signed 24-bit multiples of a step.

@@ -25,8 +25,13 @@ class Motion {
       const origin = this.follows ? this.strike.mean(field) : 0;
       for (const w of field) most = Math.max(most, Math.abs(w - origin));
     }
+    if (this.strike.stop && this.strike.hasHistory) {  // which is to be seen with its gap
+      const origin = this.follows ? this.strike.mean(displacement.subarray(0, n)) : 0;
+      for (const w of this.strike.history.w_m_m) most = Math.max(most, Math.abs(w - origin));
+    }
     if (!(most > 0)) return 1;
-    const raw = 0.4 * 0.3 * this.strike.length / most;  // panels are about 0.4 as high as wide
+    const {clientWidth: width, clientHeight: height} = this.shapeCanvas;
+    const raw = Math.min(0.12, 0.35 * height / width || 0.12) * this.strike.length / most;
     const decade = 10 ** Math.floor(Math.log10(raw));
     return Math.max(1, decade * [5, 2, 1].find((factor) => factor * decade <= raw));
   }
