@@ -4,6 +4,7 @@ report, with the figures that `subimpact plot` has drawn."""
 from __future__ import annotations
 
 import json
+import shlex
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -173,6 +174,28 @@ def _tile(answer: Mapping[str, Any]) -> tuple[str, str, str]:
     return answer["label"], answer["text"] if answer["known"] else "none", note
 
 
+_OF_STRIKES = (("sub_impacts", "", "sub-impacts", 1.0), ("restitution", "", "restitution", 1.0), ("peak_force", "_N", "peak force, N", 1.0),
+               ("permanent_set", "_m", "permanent set, mm", 1e3), ("dent", "_m", "dent, µm", 1e6),
+               ("bending", "_J", "lost by bending, J", 1.0), ("contact", "_J", "lost by the contact, J", 1.0))
+
+
+def _strikes(files: Files) -> tuple[str, str, list[list[float | None]]]:
+    """Of a beam that was struck several times: a note at the top, the section on all strikes, what its chart draws."""
+    rows = files.table("strikes.csv") if "strikes.csv" in files.listed else []
+    lines, number, place = "", numbers.number, shlex.quote(str(files.directory))
+    for k, row in enumerate(rows, 1):
+        command = f"subimpact run {place}/case.toml --set repeat.strikes={k} --out {place}-strike-{k} && subimpact report {place}-strike-{k}"
+        cells = [f"<td><button>{k}</button></td>"]
+        for name, unit, _, factor in _OF_STRIKES:
+            value, error = number(row[name + unit]), number(row.get(f"{name}_error{unit}", ""))
+            cells.append("<td>" + ("" if value is None else f"{factor * value:.5g}") + (f" ± {factor * error:.2g}" if error else "") + "</td>")
+        lines += f'<tr data-strike="{escaped(command)}">{"".join(cells)}</tr>\n'
+    names = "".join(f"<th>{words}</th>" for words in ("strike", *(words for _, _, words, _ in _OF_STRIKES)))
+    note = f'<p>Of {len(rows)} strikes this page shows the last; the others are under <a href="#all-strikes">All strikes</a>.</p>\n'
+    drawn = [[k, number(row["peak_force_N"]), 1e3 * float(row["permanent_set_m"] or 0)] for k, row in enumerate(rows, 1)]
+    return (note, filled("strikes.html", {"names": names, "rows": lines}), drawn) if rows else ("", "", [])
+
+
 def _body(answers: list[dict[str, Any]]) -> str:
     """How far a real body may be from the model: what each error is made of, and what to do about that."""
     parts = [(answer["label"], answer["text"], "+- " + answer["error_text"], "+- " + answer["body_text"],
@@ -202,6 +225,7 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
     data, history_note, shapes_note = _data(files, summary, report, hits, overlay)
     script, style, missing = charts(dygraphs)
     outcome, libraries = summary["outcome"], summary["libraries"]
+    strikes_note, strikes, data["strikes"] = _strikes(files)
     flights = (summary["error_bars"] or {}).get("uncertain_flights", [])
     columns = report["sub_impacts"]["columns"]
     steps = "".join(f"<dt><code>{escaped(step['command'])}</code></dt><dd>{in_print(step['gain'])}</dd>\n"
@@ -210,7 +234,7 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
             "them on this page.</p>\n")
     body = filled("report.html", {
         "scene": in_print(report["scene_text"]),
-        "failure": paragraphs([report["caveat"], "" if outcome["kind"] == "completed" else outcome["message"]], "failed"),
+        "failure": strikes_note + paragraphs([report["caveat"], "" if outcome["kind"] == "completed" else outcome["message"]], "failed"),
         **_certainty(summary, report),
         **_answers(summary),
         "no_charts": paragraphs([missing], "warning", "Zoomable charts are missing: "),
@@ -218,7 +242,7 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
         "sub_impacts": "".join(_rows(report, hits)),
         "flights": "".join(f"<p>After sub-impact {each['after_index']} there may be another one: {in_print(each['reason'])}.</p>\n"
                            for each in flights),
-        "strikes": _section("All strikes", f"<pre>{in_print(report['strikes'])}</pre>\n" if report["strikes"] else ""),
+        "strikes": strikes,
         "next": _section("What next", f'<dl class="steps">\n{steps}</dl>\n' if steps else ""),
         "scatter": _section("Scatter", report["scatter"] and paragraphs([report["predictable"]], before="Predictable: ")
                             + "<p>Standard deviations of the results, from those of the case's numbers:</p>\n"

@@ -25,6 +25,23 @@ function chartRows(strike, columns) {
     [time * unit.per_second, ...columns.map(({name, factor = 1}) => factor * history[name][i])]);
 }
 
+// All strikes of a beam that was struck several times; the one that is clicked is named with how to open it.
+function addStrikes(strikes) {
+  const rows = Array.from(document.querySelectorAll('[data-strike]'));
+  const choose = (index) => {
+    rows.forEach((row, i) => row.classList.toggle('chosen', i === index));
+    byId('strike-command').textContent = rows[index].dataset.strike;
+  };
+  rows.forEach((row, i) => row.addEventListener('click', () => choose(i)));
+  choose(rows.length - 1);
+  if (typeof Dygraph === 'undefined') return;
+  const labels = ['strike', 'peak force, N', 'permanent set, mm'];
+  return new Dygraph(byId('strikes-chart'), strikes, {
+    labels, xlabel: labels[0], ylabel: labels[1], y2label: labels[2], series: {[labels[2]]: {axis: 'y2', strokePattern: [7, 3]}},
+    colors: [colour('line1'), colour('line2')], drawPoints: true, pointSize: 3, axes: {y2: {drawAxis: true}, y: {axisLabelWidth: 56}},
+    clickCallback: (event, x) => choose(Math.min(Math.max(Math.round(x), 1), rows.length) - 1)});
+}
+
 const timeCharts = [
   {id: 'chart-force', label: 'force, N', columns: [{name: 'force_N', label: 'contact force'}]},
   {id: 'chart-displacement', label: 'displacement, mm', columns: [
@@ -53,6 +70,7 @@ class Page {
     byId('loop').closest('.panel').hidden = !this.loop;
     byId('timeline').closest('.panel').hidden = !this.timeline;
     byId('along').hidden = !strike.envelope;
+    if (data.strikes.length > 0) addStrikes(data.strikes);
     this.addCharts();
     this.addControls();
     this.addTable();
@@ -155,8 +173,8 @@ class Page {
 
   // The row of the sub-impact that is chosen, which may be out of sight.
   rowWords() {
-    const {cells} = document.querySelector(`[data-hit="${this.chosen}"]`);
-    const [, ...heads] = document.querySelectorAll('table.hits thead th');
+    const row = document.querySelector(`[data-hit="${this.chosen}"]`), {cells} = row;
+    const [, ...heads] = row.closest('table').querySelectorAll('thead th');
     return heads.map((head, i) => [head.firstChild.textContent, cells[i + 1].textContent.trim().replace(/\s+/g, ' '),
                                    head.querySelector('small').textContent])
       .filter(([, value]) => value !== '').map(([name, value, unit]) => `${name} ${value} ${unit.replace('max, ', '')}`).join(' · ');
