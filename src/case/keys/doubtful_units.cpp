@@ -247,8 +247,7 @@ std::vector<Beyond> beyond_the_model(const Case& input, const Result& result) {
   const Beam& beam = input.scene.beam;
   const std::optional<double>& nose = input.scene.striker.nose_radius;
   const bool is_rigid = input.model.mesh == MeshKind::rigid;
-  const bool is_held =
-      !beam.stretches() && beam.ends[0] != EndSupport::free && beam.ends[1] != EndSupport::free;
+  const bool is_held = !beam.stretches() && std::ranges::count(beam.ends, EndSupport::free) == 0;
   const double indentation = result.max_indentation, set = result.largest_displacement;
   std::vector<Beyond> found;
   const auto add = [&]<class... Values>(bool beyond, std::string_view kind,
@@ -264,24 +263,23 @@ std::vector<Beyond> beyond_the_model(const Case& input, const Result& result) {
     strain = std::max({strain, row.strain.largest.value, -row.strain.smallest.value});
   }
   const double first_yield = beam.yield_stress / beam.youngs_modulus;
-  add(input.model.section == SectionKind::elastic && strain > first_yield,
-      "sections are strained up to {:.2g} times as far as they stay elastic, which model.section = "
-      "\"elastic\" leaves out",
+  add(input.model.section == SectionKind::elastic && strain > first_yield, "section_yields",
+      "sections are strained up to {:.2g} times as far as they stay elastic, which "
+      "model.section = \"elastic\" leaves out",
       strain / first_yield);
   const double thickness = beam.height() / beam.length;
   add(!is_rigid && beam.shears() && thickness > thickest_with_shear, "thickness",
       "the beam's thickness is {:.2g} of its length: plane sections, as in every beam theory, do "
       "not describe so thick a body",
       thickness);
-  add(!is_rigid && !beam.shears() && !input.theory_is_chosen && thickness > thickest_without_shear,
-      "no_shear",
+  const bool may_shear = is_rigid || beam.shears() || input.theory_is_chosen;
+  add(!may_shear && thickness > thickest_without_shear, "no_shear",
       "the beam's thickness is {:.2g} of its length, and its theory leaves out shear; use "
       "beam.theory = \"timoshenko\"",
       thickness);
   add(!is_rigid && is_held && set / beam.height() > largest_deflection, "stretching",
       "the struck point moves by {:.3g} mm, {:.2g} times the thickness, on a beam held at both "
-      "ends: "
-      "if its supports cannot approach each other, it stretches, which stiffens it: set "
+      "ends: if its supports cannot approach each other, it stretches, which stiffens it: set "
       "beam.axial = \"held\"",
       mm * set, set / beam.height());
   add_pulls(beam, result, found);
@@ -301,8 +299,7 @@ std::vector<Beyond> beyond_the_model(const Case& input, const Result& result) {
           pressure > yield_pressure_over_stress * beam.yield_stress,
       "contact_yields",
       "the contact pressure reaches {:.3g} MPa, {:.2g} times the beam's yield stress: a Hertz "
-      "contact yields from {} times on, which contact.law = \"hertz\" leaves out and \"sphere\" "
-      "has",
+      "contact yields from {} on, which contact.law = \"hertz\" leaves out and \"sphere\" has",
       MPa * pressure, pressure / beam.yield_stress, yield_pressure_over_stress);
   return found;
 }
