@@ -168,6 +168,7 @@ def all_files():
     yield File("labview-comma.lvm", labview(comma=True).encode())
     yield File("labview-no-times.lvm", labview(times=False).encode())
     yield File("labview-two.lvm", labview_of_two().encode())
+    yield File("labview-excitation.lvm", labview().replace("\tForce\t", "\tExcitation [N]\t").replace("Y_Unit_Label\tN\t\n", "").encode())
     yield File("scopy.csv", scopy().encode(), {"columns": (2, 3), **in_volts}, "columns=")
     yield File("yokogawa.csv", yokogawa().encode())
     yield File("excel-german.csv", ("sep=;\r\n" + german).encode("cp1252"))

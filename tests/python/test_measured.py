@@ -133,6 +133,8 @@ REFUSED = {
     "with a power behind the unit": ("time_us,Force [N] 1e3\n" + rows(1e6, 1), "units="),
     "of logarithms": ("time_us,log force (N)\n" + rows(1e6, 1), "units="),
     "of a pressure alone": ("time [us],p [psi]\n" + rows(1e6, 1), "columns="),
+    "of modal analysis": ("    -1\n    58\nhammer\nNONE\n01-Jan-26 12:00:00\nNONE\nNONE\n    1         0    0         0 NONE  1   3 NONE  0   0\n"
+                          "         4       400         1 -1.00000e-04  2.00000e-06  0.00000e+00\n" + "  0.000000000000e+00" * 4 + "\n    -1\n", "pyuff"),
     "of words": ("no numbers at all\n", "no rows of numbers"),
 }
 
@@ -263,7 +265,8 @@ def test_an_option_against_the_file_is_said(tmp_path):
 
 @pytest.mark.parametrize("times, forces, quantity, words", [
     ([0, 1, 2], [0, 1], "force", "as many"), ([0, 2, 1], [0, 1, 0], "force", "increase"), ([0, 1, 2], [0, np.nan, 0], "force", "finite"),
-    ([0, 1, 2], [0, 1, 0], "Strain", "allowed"), ([0, 1], [0, 1], "force", "3 or more")])
+    ([0, 1, 2], [0, 1, 0], "Strain", "allowed"), ([0, 1], [0, 1], "force", "3 or more"),
+    ([0, 1, 2], [0, 1e200, 0], "force", "check its unit"), ([0, 1, 2], [0, 1e-200, 0], "strain", "check its unit")])
 def test_what_is_no_signal_is_refused(times, forces, quantity, words):
     with pytest.raises(si.ResultsError, match=words):
         measured.Signal(times, forces, quantity=quantity)
@@ -315,6 +318,19 @@ def test_a_fit_of_noise_alone_is_one_message(strike, elastic):
     noise = measured.Signal(1e-6 * np.arange(40), 3 * np.random.default_rng(10).normal(size=40) + 0.5)
     with pytest.raises(si.ResultsError, match="noise alone"):
         measured.fit(elastic.changed({"output.sections": [], "output.points": [], "output.shapes": 0.0}), noise, "striker.velocity")
+
+
+@pytest.mark.parametrize("name", ["constant", "step", "spike", "first", "last", "least", "ramp", "zeros"])
+def test_strange_signals_are_compared_or_refused_without_a_warning_of_numpy(strike, name):
+    """conftest.py makes errors of these."""
+    i, spike = np.arange(500), lambda at: (np.arange(500) == at) * 5.0
+    forces = {"constant": np.ones(500), "step": (i > 100) * 1.0, "spike": spike(250), "first": spike(0), "last": spike(499),
+              "least": 1e-29 * np.sin(0.1 * i) ** 2, "ramp": 1.0 * i, "zeros": np.zeros(500)}[name]
+    for options in ({}, {"low_pass": "find", "gain": "find"}, {"gain": "find", "shift": 0.0}, {"low_pass": 1e3}, {"low_pass": 1e9}):
+        try:
+            assert "nan" not in repr(measured.align(strike, measured.Signal(1e-6 * i, forces), **options))
+        except si.ResultsError as error:
+            assert "\n" not in str(error)
 
 
 def test_a_second_hit_in_a_record_is_said(strike):

@@ -343,6 +343,8 @@ def align(result: Result, signal: Signal, shift: float | str | None = None, gain
     (found_shift, x, found_gain), (shift_error, x_error, gain_error), computed = search.solve(low_pass)
     begin, end = _check_common(found_shift, signal, raw)
     factor = float(found_gain if gain == "find" else gain)
+    if factor == 0.0:
+        raise ResultsError(f"the gain found is 0: the measured {signal.quantity} has nothing of the computed one; leave shift= out, or change it")
     times, forces = signal.times - found_shift, signal.forces / factor
     inside = (times >= begin) & (times <= end)
     here = computed.at(times[inside])

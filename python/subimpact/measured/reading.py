@@ -63,6 +63,8 @@ class Signal:
             self._fail(f"times and forces have the shapes {t.shape} and {f.shape}; allowed: as many of each, 3 or more")
         if not (np.isfinite(t).all() and np.isfinite(f).all()):
             self._fail("times or forces are not all finite; leave out what is not")
+        if not 1e-30 < (largest := float(np.abs(f).max()) or 1.0) < 1e30:
+            self._fail(f"the largest value is {largest:.3g}; allowed: 1e-30 to 1e30 N or m/m; check its unit")
         if not (np.diff(t) > 0.0).all():
             self._fail("times do not increase; sort them, and leave out what comes twice")
 

@@ -75,6 +75,9 @@ class Table:
                  separator: str | None, decimal: str | None) -> None:
         self.file = file
         self.lines = _decoded(content, file).split("\n")
+        if self.lines[0].rstrip() == "    -1" and re.match(r" *\d+b?\b", "".join(self.lines[1:2])):
+            self.fail(1, "is a universal file (UFF), no table; in Python pyuff reads it (pip install pyuff): "
+                      "record = pyuff.UFF(path).read_sets(0); subimpact.measured.Signal(record[\"x\"], record[\"data\"])")
         self.metadata: dict[str, list[str]] = {}  #: values by keys of small letters and digits
         if first := re.fullmatch(r'"?sep=(.)"?', self.lines[0].strip("\ufeff ")):
             separator = separator or first[1]
