@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "case_with.h"
+#include "subimpact/study/answers.h"
 #include "subimpact/study/model/scene_choice.h"
 #include "subimpact/study/run_as_asked.h"
 #include "testing.h"
@@ -158,6 +159,25 @@ time = { end = 1 }
   ASSERT_GE(result.sub_impacts.size(), 2u);
   EXPECT_NEAR(result.sub_impacts.front().striker_velocity, -0.8 * std::sqrt(2.0 * 9.81 * 0.4),
               0.02);
+}
+
+TEST(ABoxOnAPad, HasErrorsOfItsTotals) {
+  const Result result = run_of(R"(
+striker = { mass = 2, velocity = 2.4 }
+contact = { law = "linear", stiffness = 150e3, restitution = 0.6 }
+scene = { gravity = 9.81 }
+time = { end = 0.03 }
+[beam]
+material = "S235"
+length = 0.8
+width = 0.06
+thickness = 0.012
+ends = ["pinned", "pinned"]
+)");
+  for (const RunTotal total : {RunTotal::peak_force, RunTotal::impulse, RunTotal::restitution}) {
+    ASSERT_TRUE(error_of_total(result, total));
+    EXPECT_LT(*error_of_total(result, total), 5.0);
+  }
 }
 
 TEST(BodyErrorsOfScenes, DoNotExceedTheForceOfAnElasticBall) {

@@ -107,6 +107,7 @@ std::string body_words(const Result& result, bool verbose) {
   struct Felt {
     Answer::Part part;
     std::vector<std::string> answers;
+    bool is_known = true;
   };
   std::vector<Felt> felt_parts;
   for (const Answer& answer : result.answers) {
@@ -117,18 +118,19 @@ std::string body_words(const Result& result, bool verbose) {
       if (part.change && !(*part.change > felt * sum)) continue;
       const auto of_kind = [&](const Felt& other) { return other.part.kind == part.kind; };
       auto found = std::ranges::find_if(felt_parts, of_kind);
-      if (found == felt_parts.end()) found = felt_parts.insert(found, {part, {}});
+      if (found == felt_parts.end()) found = felt_parts.insert(found, {part, {}, true});
       found->answers.push_back(answer.label);
-      if (!part.change) found->answers.back() += ", where it is not known";
+      if (!part.change) found->is_known = false;
     }
   }
   std::string text;
-  for (auto& [part, answers] : felt_parts) {
+  for (auto& [part, answers, is_known] : felt_parts) {
     if (answers.size() > most_named) {
       answers.resize(most_named);
       answers.emplace_back("...");
     }
-    text += labelled(part.label, fmt::format("{} ({})", part.remedy, fmt::join(answers, ", ")));
+    text += labelled(part.label, fmt::format("{} ({}{})", part.remedy, fmt::join(answers, ", "),
+                                             is_known ? "" : "; not known how much"));
   }
   if (verbose) {
     for (const Answer& answer : result.answers) {

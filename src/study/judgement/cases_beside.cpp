@@ -56,6 +56,7 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
     const double order = std::max(mesh_order(input).value_or(2), 2);
     beside.gain = std::min(most_gain, 1.0 / std::abs(std::pow(ratio, order) - 1.0));
     beside.input.output = output_beside(input);
+    beside.input.accuracy.energy = 1.0;  // what it loses shows in the difference
     // For a run in natural modes only the case can be refused, and resolving it would take most of
     // the time of a short run.
     if (beside.input.solver.method == Method::exponential) {
@@ -99,6 +100,7 @@ std::optional<CaseBeside> on_finer_cells(const Case& input) {
 std::vector<CaseBeside> cases_beside_in_time(const Case& input) {
   CaseBeside beside{input, ErrorSource::time, {}};
   beside.input.output = output_beside(input);
+  beside.input.accuracy.energy = 1.0;
   SolverOptions& solver = beside.input.solver;
   if (has_fixed_step(input)) {
     solver.step = shorter * *resolve(input).settings().step;

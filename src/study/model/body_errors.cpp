@@ -271,14 +271,14 @@ class Study {
     errors_.parts.push_back({kind, changes.figures});
   }
 
-  // The largest rotation (rad) up to a time (s); NaN: not known.
+  // The largest rotation (rad) up to a time (s), or where that is not known up to the end.
   double rotation_until(double time) {
     if (time <= touch_) return 0.0;
     if (time >= result_.outcome.time || input_.strikes > 1) return result_.largest_rotation;
     BodyRuns::Horizon until = runs_->horizons().front();
     until.end = time;
     const std::optional<Result> run = runs_->on_mesh(input_, until);
-    return run ? run->largest_rotation : NAN;
+    return run ? run->largest_rotation : result_.largest_rotation;
   }
 
   // A change by a share of each number, that up to its time; of times by one of that since the
@@ -286,22 +286,21 @@ class Study {
   template <class Share>
   Changes by_share(Share share) {
     Changes changes = unchanged();
-    const auto known = [](double x) { return std::isnan(x) ? Number() : Number(x); };
     const auto of_time = [&](Number& change, double time) {
-      if (change) change = known(share(time) * (time - touch_));
+      if (change) change = share(time) * (time - touch_);
     };
     for (const Figure figure : strike_figures) {
       if (!(value().*figure)) continue;
       const double size = std::abs(*(value().*figure));
       const bool is_time = std::ranges::count(times, figure) > 0;
       if (is_time) of_time(changes.figures.*figure, size);
-      if (!is_time) changes.figures.*figure = known(share(decided(figure)) * size);
+      if (!is_time) changes.figures.*figure = share(decided(figure)) * size;
     }
     for (std::size_t z = 0; z < changes.figures.zones.size(); ++z) {
       ZoneFigures& zone = changes.figures.zones[z];
       of_time(zone.start, *value().zones[z].start);
       if (zone.end) of_time(zone.end, *value().zones[z].end);
-      zone.impulse = known(share(HUGE_VAL) * std::abs(*value().zones[z].impulse));
+      zone.impulse = share(HUGE_VAL) * std::abs(*value().zones[z].impulse);
     }
     for (std::size_t i = 0; i < changes.rows.size(); ++i) {
       of_time(changes.rows[i][0], result_.sub_impacts[i].start);
