@@ -107,6 +107,14 @@ std::vector<PossibleLaw> possible_laws(const Case& input, const GivenKeys& given
   return found;
 }
 
+// Where no law takes the moduli of the nose, what the usual one misses.
+void check_nose_moduli(const Case& input, const GivenKeys& given) {
+  if (!given.contain("contact.striker_modulus") && !given.contain("contact.striker_poisson"))
+    return;
+  const bool is_ball = input.scene.striker.nose == NoseShape::sphere;
+  if (const auto usual = with_law(input, given, is_ball ? ball[0] : across[0])) check(*usual);
+}
+
 // The scene on the mesh that it has if the case names none.
 Case on_default_mesh(const Case& input) {
   if (input.parts.mesh || !descriptor_of(input.model.mesh).bends) return input;
@@ -282,11 +290,7 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
   std::vector<PossibleLaw> laws = {{base, nullptr}};
   if (open_law) laws = possible_laws(base, given);
   if (laws.empty()) {
-    const bool has_nose_moduli =
-        given.contain("contact.striker_modulus") || given.contain("contact.striker_poisson");
-    const bool is_ball = input.scene.striker.nose == NoseShape::sphere;
-    const auto usual = with_law(base, given, is_ball ? ball[0] : across[0]);
-    if (has_nose_moduli && usual) check(*usual);  // says what is missing
+    check_nose_moduli(base, given);
     return {};
   }
   const PossibleLaw* law = &laws.front();
