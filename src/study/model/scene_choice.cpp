@@ -107,6 +107,12 @@ std::vector<PossibleLaw> possible_laws(const Case& input, const GivenKeys& given
   return found;
 }
 
+// Whether a damping ratio and an open section leave the beam elastic.
+bool has_damped_modes_alone(const Case& input, const GivenKeys& given) {
+  return input.scene.beam.damping.ratio > 0.0 && !input.parts.section &&
+         !given.contain("model.section") && may_yield(input);
+}
+
 // Where no law takes the moduli of the nose, what the usual one misses.
 void check_nose_moduli(const Case& input, const GivenKeys& given) {
   if (!given.contain("contact.striker_modulus") && !given.contain("contact.striker_poisson"))
@@ -279,8 +285,7 @@ std::vector<std::string> law_words(const Case& chosen, const PossibleLaw& law,
 
 std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
   const bool open_law = !input.parts.contact_law;
-  const bool keeps_modes = input.scene.beam.damping.ratio > 0.0 && !input.parts.section &&
-                           !given.contain("model.section") && may_yield(input);
+  const bool keeps_modes = has_damped_modes_alone(input, given);
   if (keeps_modes) input.model.section = SectionKind::elastic;
   const bool open_theory =
       !given.contain("beam.theory") && !input.parts.mesh && descriptor_of(input.model.mesh).bends;
@@ -289,10 +294,8 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
   if (!knows_poisson) base.scene.beam.poisson = usual_poisson;
   std::vector<PossibleLaw> laws = {{base, nullptr}};
   if (open_law) laws = possible_laws(base, given);
-  if (laws.empty()) {
-    check_nose_moduli(base, given);
-    return {};
-  }
+  if (laws.empty()) check_nose_moduli(base, given);
+  if (laws.empty()) return {};
   const PossibleLaw* law = &laws.front();
   ShearTest test{Shear::not_tested, "no mesh with shear takes this scene"};
   Case chosen;
