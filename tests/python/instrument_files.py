@@ -136,6 +136,20 @@ def spans(days, hours):
     return "time,force_N\n" + "".join(f"{days(t)}{hours(float(s))},{f:.4f}\n" for t, s, f in zip(TIMES, seconds, FORCES))
 
 
+def universal(even=True, double=True, unit="N", more=""):
+    """Data set 58 in text: records of 80 characters, by its specification."""
+    head = ["hammer", "NONE", "01-Jan-26 12:00:00", "NONE", "NONE", f"{1:5d}{0:10d}{0:5d}{0:10d} {'NONE':10s}{1:10d}{3:4d} {'NONE':10s}{0:10d}{0:4d}",
+            f"{4 if double else 2:10d}{N:10d}{int(even):10d}{BEGIN:13.5e}{STEP:13.5e}{0:13.5e}"]
+    head += [f"{kind:10d}{0:5d}{0:5d}{0:5d} {label:20s} {symbol:20s}" for kind, label, symbol in (
+        (17, "Time", "s"), (13, "Excitation", unit), (0, "NONE", "NONE"), (0, "NONE", "NONE"))]
+    numbers = [f"{f:20.12e}" if double else f"{f:13.5e}" for f in FORCES]
+    if not even:
+        numbers = [f"{t:13.5e}{f}" for t, f in zip(TIMES, numbers)]
+    per_line = 80 // len(numbers[0])
+    rows = ["".join(numbers[i:i + per_line]) for i in range(0, N, per_line)]
+    return "\n".join(["    -1", "    58", *head, *rows, "    -1", ""]) + more
+
+
 def clock(form, mark=".", before="", after=""):
     """Times of day, from 12:03:04.1234 on."""
     def cell(t):
@@ -183,6 +197,10 @@ def all_files():
     yield File("scientific.tsv", ("time [s]\tF [N]\n" + rows(1, 1, "\t", time_format="{:.6e}", force_format="{:.3e}")).encode())
     yield File("gaps.csv", with_gaps().encode(), n=N - 5)
     yield File("overrange.csv", with_overrange().encode(), n=N - 5)
+    for i, (even, double, unit) in enumerate(((True, True, "N"), (True, False, "N"), (False, True, "NONE"), (False, False, ""))):
+        yield File(f"universal-{i}.uff", universal(even, double, unit).encode())
+    unit = "    -1\n   151\nmodel\n    -1\n"
+    yield File("universal-two.unv", (unit + universal() + universal().replace("        13 ", "        12 ").replace("N   ", "g   ")).encode())
     yield File("hioki.csv", hioki().encode())
     yield File("timedelta.csv", spans(lambda t: "-1 days +" if t < 0 else "0 days ", lambda s:
                f"{int(s) // 3600:02d}:{int(s) // 60 % 60:02d}:{s % 60:09.6f}").encode())

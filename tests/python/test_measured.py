@@ -133,8 +133,8 @@ REFUSED = {
     "with a power behind the unit": ("time_us,Force [N] 1e3\n" + rows(1e6, 1), "units="),
     "of logarithms": ("time_us,log force (N)\n" + rows(1e6, 1), "units="),
     "of a pressure alone": ("time [us],p [psi]\n" + rows(1e6, 1), "columns="),
-    "of modal analysis": ("    -1\n    58\nhammer\nNONE\n01-Jan-26 12:00:00\nNONE\nNONE\n    1         0    0         0 NONE  1   3 NONE  0   0\n"
-                          "         4       400         1 -1.00000e-04  2.00000e-06  0.00000e+00\n" + "  0.000000000000e+00" * 4 + "\n    -1\n", "pyuff"),
+    "of modal analysis without times": ("    -1\n    58\n" + "x\n" * 6 + "         5       400         1  0.0  2.0  0.0\n        18\n        12\n\n\n"
+                                        "  0.000e+00" * 4 + "\n    -1\n", "export it as CSV"),
     "of words": ("no numbers at all\n", "no rows of numbers"),
 }
 

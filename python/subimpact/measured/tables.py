@@ -28,6 +28,8 @@ _CLOCK = re.compile(r"(?:(?<=[,;\t\"])|^)(?:\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[ T]|
                     r"(?:Z|[-+]\d\d:?\d\d)?(?=[,;\t\"]|$)")
 _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+|\d{1,3}(?:[.,]\d{3})+(?:[.,]\d*)?)(?:[eEdD][-+]?\d+)?")
 _NUMBERS_ONLY = re.compile(r"[-+\d.,;|\s\"edEnaif∞]*\d[-+\d.,;|\s\"edEnaif∞]*", re.IGNORECASE)
+#: What ordinates of universal files are, where these say no unit: of SI.
+_UNIVERSAL = {0: "", 2: "", 3: "m/m", 9: "N", 12: "m/s^2", 13: "N"}
 _INDEX = ("sequence", "sample", "samples", "index", "point", "points", "nr", "no", "")
 _BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF32_LE: "utf-32", codecs.BOM_UTF32_BE: "utf-32",
          codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
@@ -75,9 +77,8 @@ class Table:
                  separator: str | None, decimal: str | None) -> None:
         self.file = file
         self.lines = _decoded(content, file).split("\n")
-        if self.lines[0].rstrip() == "    -1" and re.match(r" *\d+b?\b", "".join(self.lines[1:2])):
-            self.fail(1, "is a universal file (UFF), no table; in Python pyuff reads it (pip install pyuff): "
-                      "record = pyuff.UFF(path).read_sets(0); subimpact.measured.Signal(record[\"x\"], record[\"data\"])")
+        if self.lines[0].rstrip() == "    -1":
+            self.lines = self._of_universal("\n".join(self.lines))
         self.metadata: dict[str, list[str]] = {}  #: values by keys of small letters and digits
         if first := re.fullmatch(r'"?sep=(.)"?', self.lines[0].strip("\ufeff ")):
             separator = separator or first[1]
@@ -92,6 +93,24 @@ class Table:
         self._find_columns(sample)
         self._find_rows(rows)
         self._read_heading()
+
+    def _of_universal(self, text: str) -> list[str]:
+        """The records of a universal file (data set 58 in text) that are real functions of the same times, as a table."""
+        columns: dict[str, Any] = {}
+        for found in re.findall(r"^ {4}-1 *\n +58 *\n((?:.*\n){11})((?:.*\n)*?) {4}-1 *$", text, re.MULTILINE):
+            head, numbers = found[0].split("\n"), np.array(re.findall(r"[-+]?\d+\.?\d*(?:[eEdD][-+]?\d+)?", found[1]), float)
+            kind, _, is_even, start, step = map(float, head[6].split()[:5])
+            abscissa, ordinate = (int(line.split()[0]) for line in head[7:9])
+            if abscissa != 17 or ordinate not in _UNIVERSAL or kind not in (2, 4):  # of time; real
+                continue
+            times, values = (start + step * np.arange(len(numbers)), numbers) if is_even else (numbers[::2], numbers[1::2])
+            units = [line[47:67].replace("NONE", "").strip() or usual for line, usual in ((head[7], "s"), (head[8], _UNIVERSAL[ordinate]))]
+            if not columns or np.array_equal(next(iter(columns.values())), times):
+                columns.setdefault(f"time [{units[0]}]", times)
+                columns[f"record {len(columns)} [{units[1]}]"] = values
+        if not columns:
+            self.fail(1, "is a universal file without a real function of time (data set 58, in text); export it as CSV")
+        return ["\t".join(columns), *("\t".join(map(repr, row)) for row in zip(*(each.tolist() for each in columns.values())))]
 
     def fail(self, line: int | None, text: str) -> NoReturn:
         """Refuses the file, or one of its lines."""
