@@ -81,6 +81,8 @@ def test_a_named_column_of_forces_leaves_the_times_of_the_file_in_place(columns,
     assert np.trapz(signal.forces, signal.times) == pytest.approx(1200 * 8e-4 * 2 / np.pi, rel=1e-2)
     assert any("40 us apart" in words and "states 20 us" in words for words in signal.assumed)
     assert measured.read(path, columns=columns, interval="1us").times[0] == 0.0
+    path.write_text(path.read_text().replace("50000 Hz", "250 kHz"))  # every tenth
+    assert any("40 us apart" in words and "states 4 us" in words for words in measured.read(path, columns=columns).assumed)
 
 
 def test_a_named_column_of_forces_is_read_from_every_file_with_its_times(tmp_path):

@@ -69,6 +69,11 @@ def test_a_sweep_has_maps_histograms_and_all_its_runs(population, tmp_path, prog
     assert "changed or cut short" in program("report", tmp_path / "out", status=2).stderr
 
 
+def test_warnings_of_a_sweep_are_counted_by_kind_on_its_page():
+    (certain, _, words), = several._warnings({"warnings": np.array(["", "rotations", "rotations;units"])}, 3)
+    assert not certain and words.startswith("rotations in 2, units in 1 of 3 runs") and not several._warnings({"warnings": np.full(3, np.nan)}, 3)
+
+
 @pytest.fixture
 def runs(elastic, tmp_path):
     elastic["time.end"] = 5e-4
