@@ -169,7 +169,7 @@ std::pair<CLI::App&, Options&> add_command(CLI::App& program, int& status, const
 }
 
 using AddCommands = void(CLI::App& program, int& status);
-AddCommands add_run, add_compare, add_work_precision, add_stability, add_sensitivity, add_explain,
-    add_new, add_plot_and_report, add_python, add_listings, add_manual;
+AddCommands add_run, add_compare, add_work_precision, add_stability, add_explain, add_new,
+    add_report, add_python, add_listings, add_manual;
 
 }  // namespace subimpact::app

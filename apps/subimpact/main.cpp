@@ -139,8 +139,7 @@ int run_command_line(int argc, char** argv) {
   program.failure_message(usage_error);
   for (const auto add :
        {app::add_new, app::add_run, app::add_compare, app::add_work_precision, app::add_stability,
-        app::add_sensitivity, app::add_explain, app::add_plot_and_report, app::add_python,
-        app::add_listings, app::add_manual}) {
+        app::add_explain, app::add_report, app::add_python, app::add_listings, app::add_manual}) {
     add(program, status);
   }
   if (const auto message = unknown_command(program, argc, argv)) {

@@ -126,9 +126,38 @@ int run_python(const std::string& module, const std::vector<std::string>& argume
   return cannot_run(python);
 }
 
+namespace {
+
+struct PythonCommand {
+  const char *name, *module, *description;
+};
+
+// Each takes its arguments, and prints its help, itself.
+constexpr PythonCommand python_commands[] = {
+    {"plot", "subimpact.plot", "Draw the figures of a run, a sweep or a study (SVG, PNG and PDF)"},
+    {"sensitivity", "subimpact.derivatives",
+     "Show how event times, forces and velocities depend on the numbers of a case"},
+    {"scatter", "subimpact.predictability",
+     "Show how far a strike can be predicted whose numbers scatter"}};
+
+CLI::App* add_passing_command(CLI::App& program, const char* name, const char* description) {
+  CLI::App* command = program.add_subcommand(name, description);
+  command->prefix_command();
+  return command;
+}
+
+}  // namespace
+
 void add_python(CLI::App& program, int& status) {
-  CLI::App* command = program.add_subcommand(
-      "python", "Run Python where `import subimpact` finds the package of this program");
+  for (const auto& [name, module, description] : python_commands) {
+    CLI::App* command = add_passing_command(program, name, description);
+    command->set_help_flag();
+    command->footer(
+        fmt::format("Needs the Python package; subimpact {} --help has its options.", name));
+    command->callback([=, &status] { status = run_python(module, command->remaining()); });
+  }
+  CLI::App* command = add_passing_command(
+      program, "python", "Run Python where `import subimpact` finds the package of this program");
   command->footer(
       "Its arguments are those of Python. The package is that of the build tree or of the "
       "installation of this program, else the one "
@@ -138,7 +167,6 @@ void add_python(CLI::App& program, int& status) {
       "  subimpact python script.py\n"
       "  subimpact python -c 'import subimpact; print(subimpact.__version__)'\n"
       "Exit status: that of Python; 2 without Python.");
-  command->prefix_command();
   command->callback([=, &status] {
     const std::string python = interpreter();
     std::vector<std::string> words = command->remaining();

@@ -8,7 +8,6 @@
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
 #include "subimpact/study/run_as_asked.h"
-#include "subimpact/study/sensitivity/predictability.h"
 
 namespace subimpact::app {
 namespace {
@@ -51,24 +50,6 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
   request.resolved = std::move(resolved);
   request.body_errors = options.body_errors == "on";
   return run_as_asked(loaded.value, loaded.given, std::move(request));
-}
-
-// What scatter leaves of the event times of a case that has it.
-void add_scatter(WithinRun& run, const RunOptions& options, const InterruptListener& listener) {
-  if (!run.result.outcome.completed() || scattering_keys(run.input).empty()) return;
-  if (run.input.parts.start) {
-    run.result.warnings.emplace_back(
-        "the scatter has no effect: it is known only for the first strike on a straight beam");
-    return;
-  }
-  StatusLine status;
-  SensitivityOptions how;
-  how.jobs = options.jobs;
-  how.finished = [&](std::size_t n_done, std::size_t n_all) {
-    if (!options.quiet) status.show_runs("scatter: ", n_done, n_all);
-  };
-  how.progress = [&](double) { return !listener.interrupted(); };
-  add_predictability(run.result, run.input, how);
 }
 
 // Writes the results; returns why they could not be written.
@@ -143,6 +124,14 @@ std::vector<NextStep> next_steps(const RunOptions& options, const GivenKeys& giv
     const std::string seconds = with_digits(std::max(1.0, advice.seconds), 1);
     steps.push_back({command, fmt::format("{} (about {} s)", advice.gain, seconds)});
   }
+  if (std::ranges::any_of(run.input.scatter,
+                          [](const auto& of_key) { return of_key.second > 0.0; })) {
+    std::string command = fmt::format("{} scatter {}", program, quoted(options.input.file));
+    for (const std::string& setting : options.input.settings)
+      command += " --set " + quoted(setting);
+    steps.push_back(
+        {command, "what the scatter of the case leaves of its times and forces (a minute)"});
+  }
   return steps;
 }
 
@@ -173,7 +162,6 @@ int run(RunOptions& options) {
   InterruptListener listener;
   const WithinRun finished = with_places(loaded, [&] {
     WithinRun run = run_loaded(loaded, std::move(resolved), options, listener, files);
-    add_scatter(run, options, listener);
     run.result.next_steps = next_steps(options, loaded.given, run);
     make_answers(run.input, run.result);
     return run;
@@ -188,7 +176,6 @@ int run(RunOptions& options) {
     print("{}\n{}", run_summary(input, result, options.verbose),
           sub_impact_table(result, !all_rows));
     if (!result.strikes.empty()) print("\n{}", strike_table(result, all_rows));
-    if (result.predictability) print("\n{}", scatter_table(result));
     print("\n{}",
           next_lines(result.next_steps,
                      unwritten.empty() ? files.directory().path().string() : std::string()));
@@ -206,10 +193,8 @@ int run(RunOptions& options) {
   }
   if (!unwritten.empty()) print_error("subimpact: {}\n", unwritten);
   if (!unwritten.empty()) return failed;
-  const bool lacks_scatter = !result.predictability && !scattering_keys(input).empty();
-  const bool is_cut_short =
-      result.outcome.kind == OutcomeKind::stopped || (lacks_scatter && listener.interrupted());
-  return is_cut_short ? listener.exit_status() : status_of(result.outcome.kind);
+  if (result.outcome.kind == OutcomeKind::stopped) return listener.exit_status();
+  return status_of(result.outcome.kind);
 }
 
 }  // namespace

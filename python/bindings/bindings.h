@@ -18,8 +18,7 @@ namespace py = pybind11;
 void bind_cases(py::module_& module);
 void bind_results(py::module_& module);
 void bind_runs(py::module_& module);
-void bind_sensitivities(py::module_& module);
-void bind_populations(py::module_& module);
+void bind_studies(py::module_& module);
 void bind_directories(py::module_& module);
 
 /// The key of this name. Throws InvalidCase for a name that is none.

@@ -39,7 +39,6 @@ PYBIND11_MODULE(_core, module) {
   bind_cases(module);
   bind_results(module);
   bind_runs(module);
-  bind_sensitivities(module);
-  bind_populations(module);
+  bind_studies(module);
   bind_directories(module);
 }

@@ -14,7 +14,6 @@
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
-#include "subimpact/study/judgement/match.h"
 #include "tables.h"
 
 namespace subimpact::python {
@@ -30,26 +29,6 @@ py::array table_named(const Finished& run, const std::string& name) {
   });
   if (found.is_none()) throw py::key_error(name);
   return found;
-}
-
-using Times = std::vector<std::pair<double, double>>;  // start and end, s; infinity: still open
-
-std::vector<SubImpact> sub_impacts_at(const Times& times) {
-  std::vector<SubImpact> all(times.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].start = times[i].first;
-    if (std::isfinite(times[i].second)) all[i].end = times[i].second;
-  }
-  return all;
-}
-
-// Pairs of indices; none where the other run has no counterpart.
-auto matched(const Times& first, const Times& second) {
-  std::vector<std::pair<std::optional<std::size_t>, std::optional<std::size_t>>> pairs;
-  for (const auto& pair : match_sub_impacts(sub_impacts_at(first), sub_impacts_at(second))) {
-    pairs.emplace_back(pair.first, pair.second);
-  }
-  return pairs;
 }
 
 // --- tables of sweeps ----------------------------------------------------------------------------
@@ -73,12 +52,6 @@ auto of_first(auto value) {
     const auto& all = run.result.sub_impacts;
     return all.empty() ? std::optional<double>() : all.front().*value;
   };
-}
-
-std::optional<std::size_t> n_predictable(const Finished& run) {
-  const auto& found = run.result.predictability;
-  if (!found) return std::nullopt;
-  return found->first_unpredictable.value_or(run.result.sub_impacts.size());
 }
 
 std::optional<int> all_certain(const Finished& run) {
@@ -151,8 +124,6 @@ const Columns<Finished>& swept_run_columns() {
       {"wish_met",
        of_part(&Result::tolerance, [](const ToleranceOutcome& w) { return w.met ? 1 : 0; })},
       {"horizon_s", of_part(&Result::tolerance, &ToleranceOutcome::horizon)},
-      {"n_predictable", &n_predictable},
-      {"predictable_until_s", of_part(&Result::predictability, &Predictability::horizon)},
       {"first_separation_s", of_first(&SubImpact::end)},
       {"first_separation_error_s", of_first(&SubImpact::end_error)},
       {"first_section_yield_s", member(&Result::first_section_yield)},
@@ -196,7 +167,6 @@ std::vector<std::string> names_of_columns(const auto& columns) {
 void bind_results(py::module_& module) {
   module.def(
       "no_rows", [](const std::string& table) { return table_named({}, table); }, py::arg("table"));
-  module.def("matched", &matched, py::arg("first"), py::arg("second"));
   module.def("columns", &column_listing);
   module.def("event_columns", [] { return names_of_columns(run_table<SubImpact>().columns); });
   module.def("swept_columns", [] { return names_of_columns(swept_run_columns()); });
@@ -219,6 +189,9 @@ void bind_results(py::module_& module) {
              return cells;
            })
       .def("report_json", [](const Finished& run) { return report_json(run.input, run.result); })
+      .def_property_readonly(
+          "outcome",
+          [](const Finished& run) { return std::string(to_string(run.result.outcome.kind)); })
       .def_property_readonly("message",
                              [](const Finished& run) { return run.result.outcome.message; })
       .def_readonly("interrupted", &Finished::interrupted)

@@ -9,7 +9,6 @@
 #include "overseer.h"
 #include "subimpact/report/text.h"
 #include "subimpact/study/run_as_asked.h"
-#include "subimpact/study/sensitivity/predictability.h"
 
 namespace subimpact::python {
 namespace {
@@ -23,17 +22,6 @@ std::optional<ErrorBars> error_bars_named(const std::optional<std::string>& name
                         "\"; allowed: None (from coarser meshes), \"off\", \"time\", \"all\"");
 }
 
-// A run as the program makes it, with its predictability where the case has a scatter.
-WithinRun run_and_predict(const LoadedCase& loaded, RunRequest request, Overseer& overseer) {
-  SensitivityOptions how;
-  how.jobs = request.jobs;
-  how.progress = [&overseer](double) { return overseer.goes_on(); };
-  WithinRun run = run_as_asked(loaded.value, loaded.given, std::move(request));
-  if (run.result.outcome.completed()) add_predictability(run.result, run.input, how);
-  make_answers(run.input, run.result);
-  return run;
-}
-
 Finished run(const LoadedCase& loaded, const std::optional<std::string>& error_bars, Jobs jobs,
              const py::object& progress, const std::optional<double>& timeout, bool body_errors) {
   Overseer overseer(progress, timeout);
@@ -44,8 +32,11 @@ Finished run(const LoadedCase& loaded, const std::optional<std::string>& error_b
   request.progress = [&overseer](double time) { return overseer.goes_on(time); };
   WithinRun made = [&] {
     const py::gil_scoped_release released;
-    return with_places(loaded,
-                       [&] { return run_and_predict(loaded, std::move(request), overseer); });
+    return with_places(loaded, [&] {
+      WithinRun run = run_as_asked(loaded.value, loaded.given, std::move(request));
+      make_answers(run.input, run.result);
+      return run;
+    });
   }();
   overseer.finish();
   return {std::move(made.input), std::move(made.result), overseer.interrupted(),

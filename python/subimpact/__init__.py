@@ -25,13 +25,15 @@ if TYPE_CHECKING:
     from ._errors import CaseError, OutputError, PlanError, ResultsError, StoreError
     from .case import Case, Key, Material, keys, materials
     from .derivatives import Sensitivity, sensitivity
+    from .predictability import Scatter, scatter
     from .result import Result, columns, read_results
     from .running import run
     from .sweep import Plan, sweep
 
 __all__ = [
-    "Case", "CaseError", "Key", "Material", "OutputError", "Plan", "PlanError", "Result", "ResultsError", "Sensitivity",
-    "StoreError", "__version__", "columns", "keys", "materials", "read_results", "run", "sensitivity", "sweep",
+    "Case", "CaseError", "Key", "Material", "OutputError", "Plan", "PlanError", "Result", "ResultsError", "Scatter",
+    "Sensitivity", "StoreError", "__version__", "columns", "keys", "materials", "read_results", "run", "scatter", "sensitivity",
+    "sweep",
 ]
 
 _PLACES = {name: module for module, names in {
@@ -39,6 +41,7 @@ _PLACES = {name: module for module, names in {
     "_errors": "CaseError OutputError PlanError ResultsError StoreError",
     "case": "Case Key Material keys materials",
     "derivatives": "Sensitivity sensitivity",
+    "predictability": "Scatter scatter",
     "result": "Result columns read_results",
     "running": "run",
     "sweep": "Plan sweep",

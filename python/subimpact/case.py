@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib import import_module
@@ -64,6 +64,14 @@ materials = {values[0]: Material(*values) for values in _core.materials()}
 def _check_name(key: object) -> None:
     if not isinstance(key, str) or not is_unicode(key):
         raise CaseError(f"unknown key {key!r}; subimpact.keys() lists those there are")
+
+
+def key_of(name: str) -> Key:
+    """Raises CaseError."""
+    _check_name(name)
+    if name not in _KEYS:
+        _core.checked(name, 0)  # raises, with the name that is meant
+    return _KEYS[name]
 
 
 def checked(key: str, value: object) -> Any:
@@ -129,9 +137,10 @@ class Case:
             lines.append(f"{dotted(key)} = {text_of(value)}\n")
         self._begin("".join(lines), "Case")
 
-    def _begin(self, text: str, name: str) -> None:
+    def _begin(self, text: str, name: str, overrides: Sequence[tuple[str, str, str]] = ()) -> None:
         self._text = text
         self._name = name
+        self._overrides = tuple(overrides)
         self._settings: dict[str, Any] = {}
         self._loaded: _core.LoadedCase | None = None
 
@@ -144,16 +153,19 @@ class Case:
         return case
 
     @classmethod
-    def from_file(cls, path: str | os.PathLike[str]) -> Case:
-        """The case of a TOML file, of at most 1,000,000 bytes."""
+    def from_file(cls, path: str | os.PathLike[str], overrides: Sequence[tuple[str, str, str]] = ()) -> Case:
+        """The case of a TOML file, of at most 1,000,000 bytes. `overrides`: keys, values as texts, and where these are from."""
         name = printable(os.fsdecode(path))
-        return cls.from_text(_text_of_file(path, name), name)
+        case = cls.__new__(cls)
+        case._begin(_text_of_file(path, name), name, overrides)
+        case.check()
+        return case
 
     def _load(self) -> _core.LoadedCase:
         if self._loaded is None:
             if not is_unicode(self._text):
                 raise CaseError(f"{self._name}: is no UTF-8 text; allowed: TOML without lone surrogates")
-            settings = [
+            settings = [*self._overrides] + [
                 (key, "default" if value is None else text_of(value), f'case["{key}"]')
                 for key, value in self._settings.items()
             ]
@@ -230,19 +242,19 @@ class Case:
     def copy(self) -> Case:
         """A copy that changes by itself."""
         case = Case.__new__(Case)
-        case._begin(self._text, self._name)
+        case._begin(self._text, self._name, self._overrides)
         case._settings = dict(self._settings)
         case._loaded = self._loaded
         return case
 
     __copy__ = copy
 
-    def __getstate__(self) -> tuple[str, str, dict[str, Any]]:
-        return self._text, self._name, self._settings
+    def __getstate__(self) -> tuple[Any, ...]:
+        return self._text, self._name, self._overrides, self._settings
 
-    def __setstate__(self, state: tuple[str, str, dict[str, Any]]) -> None:
-        text, name, settings = state
-        self._begin(text, name)
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        *begin, settings = state
+        self._begin(begin[0], begin[1], begin[2])
         self._settings = dict(settings)
 
     def __eq__(self, other: object) -> bool:

@@ -142,15 +142,6 @@ class Result:
         bars = self.summary["error_bars"]
         return bool(bars) and bars["first_unresolved_index"] is None
 
-    @property
-    def n_predictable(self) -> int | None:
-        """How many leading sub-impacts can be predicted in spite of the case's [scatter]; None
-        without scatter. `summary["predictability"]` has the reason and the horizon."""
-        if not (found := self.summary["predictability"]):
-            return None
-        first: int | None = found["first_unpredictable_index"]
-        return len(self.sub_impacts) if first is None else first - 1
-
     def __getitem__(self, key: str) -> Any:
         """The value of a key of the case that was run, with every choice made."""
         table, _, leaf = key.rpartition(".")

@@ -45,8 +45,7 @@ def run(
     give the reason. A solver that fails returns a result too, with an outcome that says so. Raises
     CaseError for a case that cannot be run.
 
-    If numbers of the case scatter ([scatter]), four more runs per number, on `jobs` threads, show
-    what that leaves of event times: columns start_scatter_s and end_scatter_s, `n_predictable`.
+    The [scatter] of a case does not change its run: `subimpact.scatter` shows what it leaves.
     """
     case = as_case(case)
     if error_bars not in (None, "off", "time", "all"):

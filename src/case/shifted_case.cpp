@@ -72,24 +72,4 @@ std::vector<std::string> shifted_keys(const Case& input) {
   return names;
 }
 
-Case shifted(const Case& input, const CaseKey& key, double shift) {
-  Case other = input;
-  KeyValue value = *key.get(input);
-  if (auto* placed = std::get_if<PlacedValues>(&value)) {
-    for (PlacedValues::Entry& entry : placed->entries) {
-      for (auto& [time, number] : entry.table) number *= std::exp(shift);
-    }
-  } else {
-    std::get<double>(value) *= std::exp(shift);
-  }
-  key.set(other, value);
-  if (key.name == "beam.poisson" && input.scene.contact.beam_poisson) {
-    other.scene.contact.beam_poisson = other.scene.beam.poisson;
-  }
-  if (key.name == "contact.beam_poisson" && input.scene.beam.poisson) {
-    other.scene.beam.poisson = other.scene.contact.beam_poisson;
-  }
-  return other;
-}
-
 }  // namespace subimpact

@@ -18,7 +18,4 @@ std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key
 /// The keys of the scene (beam, striker, contact) by which results have a derivative.
 std::vector<std::string> shifted_keys(const Case& input);
 
-/// The case with the value of a key, for which why_not_shifted() has no reason, times exp(`shift`).
-Case shifted(const Case& input, const CaseKey& key, double shift);
-
 }  // namespace subimpact

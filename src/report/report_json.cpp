@@ -144,15 +144,13 @@ Json columns_json(const OutputOptions& output) {
 }  // namespace
 
 std::string printed_report(const Case& input, const Result& result) {
-  return run_summary(input, result) + '\n' + sub_impact_table(result) +
-         (result.predictability ? '\n' + scatter_table(result) : "");
+  return run_summary(input, result) + '\n' + sub_impact_table(result);
 }
 
 std::string report_json(const Case& input, const Result& result) {
   Json meanings = Json::object();
   for (const auto& [name, meaning] : listing_of(run_record())) meanings[name] = meaning;
   const auto& tolerance = result.tolerance;
-  const bool scatters = result.predictability.has_value();
   const Json json = {{"layout", report_layout},
                      {"scene_text", scene_words(input, result)},
                      {"caveat", outcome_caveat(result)},
@@ -160,8 +158,6 @@ std::string report_json(const Case& input, const Result& result) {
                      {"tolerance", tolerance ? tolerance_words(*tolerance, result) : std::string()},
                      {"sub_impacts", sub_impacts_json(result)},
                      {"strikes", result.strikes.empty() ? "" : strike_table(result)},
-                     {"predictable", scatters ? predictability_words(result) : ""},
-                     {"scatter", scatters ? scatter_table(result) : ""},
                      {"computed_in", duration_text(result.work.all_seconds)},
                      {"brief", result.brief_report()},
                      {"printed", printed_report(input, result)},

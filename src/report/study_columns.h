@@ -36,10 +36,6 @@ struct StudyColumn : Column<Row> {
 template <class Row>
 using StudyColumns = std::vector<StudyColumn<Row>>;
 
-/// A row of sensitivity.csv, and the columns of a study by these keys.
-struct SensitivityRow;
-Columns<SensitivityRow> sensitivity_columns(const std::vector<std::string>& keys);
-
 template <class Row>
 Columns<Row> columns_in_file(const StudyColumns<Row>& columns) {
   Columns<Row> in_file;

@@ -69,7 +69,7 @@ class HostileTexts(PageTestCase):
             answer.update({"label": words, "text": words, "error_text": words, "body_text": words, "note": words})
         path.write_text(json.dumps(summary), encoding="utf-8")
         report = json.loads((directory / "report.json").read_text(encoding="utf-8"))
-        report.update({name: words for name in ("caveat", "tolerance", "scatter", "strikes", "verbose", "case")})
+        report.update({name: words for name in ("caveat", "tolerance", "strikes", "verbose", "case")})
         for line in report["headlines"]:
             line.update({"text": words})
         for row in report["sub_impacts"]["rows"]:

@@ -353,62 +353,6 @@ class OtherRuns(PageTestCase):
                 self.assertEqual(problems, [])
 
 
-class ScatterPage(PageTestCase):
-    """A strike on a beam whose thickness is known to 0.3 %."""
-
-    @classmethod
-    def make(cls):
-        directory = cls.program.run("scatter", "scatter.beam.thickness=0.003", "time.end=1.8e-3", "model.segments=51",
-                                    "model.section=exact")
-        cls.program("report", "scatter")
-        return directory / "report.html"
-
-    def test_bars_of_the_timeline_are_those_of_the_table(self):
-        rows = self.program.table("scatter", "events.csv")
-        marks = self.js("return page.timeline.marks.filter(({kind}) => kind === 'contact')")
-        self.assertEqual(len(marks), len(rows))
-        for mark, row in zip(marks, rows):
-            for name in ("error", "scatter"):
-                text = row[f"start_{name}_s"]
-                self.assertEqual(mark[name], float(text) if text else None)
-        self.assertGreater(self.js(COUNT, self.find("#timeline"), "scatter"), 30)
-        self.assertGreater(self.js(COUNT, self.find("#timeline"), "text"), 30)
-
-    def test_a_bar_ends_at_its_value(self):
-        mark = self.js("return page.timeline.marks.find(({scatter}) => scatter > 0)")
-        self.js("page.view.setTime(0)")
-        self.frame()
-        top = self.js(COPY + """
-            const {timeline} = page, mark = arguments[0], {axes, canvas} = timeline;
-            const x = Math.round(axes.toX(mark.time * timeline.strike.time_unit.per_second)) + 3;
-            const data = copied(canvas).getImageData(x, 0, 1, canvas.height).data;
-            const text = getComputedStyle(document.documentElement).getPropertyValue('--scatter').trim();
-            const wanted = [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16));
-            let y = 0;
-            while (y < axes.bottom && wanted.some((value, k) => Math.abs(data[4 * y + k] - value) > 3)) ++y;
-            return [y, axes.toY(1e6 * mark.scatter)];""", mark)
-        self.assertAlmostEqual(*top, delta=1.5)
-
-    def test_the_part_beyond_the_horizon_is_marked(self):
-        horizon = self.js("return page.strike.horizon")
-        self.assertGreater(horizon, 0)
-        self.assertLess(horizon, 1.8e-3)
-        self.assertGreater(self.js(COUNT, self.find("#timeline"), "doubt"), 20)
-        self.assertIn("; beyond: ", self.find("body").text)
-
-    def test_it_states_what_the_model_leaves_out_as_the_run_does(self):
-        self.program("run", self.program.case, "--out", "again", "--set", "time.end=3e-4")
-        self.program("report", "again")
-        browser.open_page(self.driver, self.program.directory / "again" / "report.html")
-        with open(self.program.directory / "again" / "summary.json", encoding="utf-8") as file:
-            answers = [answer for answer in json.load(file)["answers"] if answer["parts"]]
-        self.assertGreater(len(answers), 1)
-        shown = self.find("#model").text
-        for answer in answers:
-            for part in answer["parts"]:
-                self.assertIn(f"{part['label']} {part['text']}", shown)
-
-
 class Surroundings(PageTestCase):
     """A bar that swings against a stop, with a spring and a force that ends after 1 ms."""
 

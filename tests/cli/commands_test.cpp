@@ -14,6 +14,7 @@ namespace subimpact {
 namespace {
 
 using ARun = InADirectory;
+using ScatterCommand = InADirectory;
 using SensitivityCommand = InADirectory;
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
@@ -100,7 +101,7 @@ TEST(ARunAsAsked, GivesWhatTheProgramGivesNumberForNumber) {
   const auto program = summary_in(directory.path / "here");
   const LoadedCase loaded = read_case_file(SUBIMPACT_PAPER_CASE, {parse_override("time.end=3e-4")});
   const WithinRun here = run_as_asked(loaded.value, loaded.given);
-  EXPECT_EQ(here.result.used.mesh, program.at("used").at("mesh").get<std::string>());
+  EXPECT_EQ(here.result.used.mesh, program.at("used").at("mesh"));
   EXPECT_EQ(csv_of<SubImpact>(here.result), directory.read("here/events.csv"));
   EXPECT_EQ(here.result.striker_velocity, program.at("final").at("striker_velocity_m_per_s"));
 }
@@ -141,24 +142,23 @@ TEST_F(SensitivityCommand, RefusesKeysByName) {
   }
 }
 
-TEST_F(ARun, OfACaseWithScatterStatesHowFarItCanBePredicted) {
-  expect_in(
-      run_in(directory, of_paper("run", {"--set", "scatter.striker.velocity=0.01", "--out", "r"}))
-          .output,
-      "predictable", "standard deviations by the scatter of the case");
-  const auto summary = nlohmann::json::parse(directory.read("r/summary.json"));
+TEST_F(ScatterCommand, WritesItsFilesAndPrintsHowFarTheStrikeCanBePredicted) {
+  expect_in(run_in(directory,
+                   of_paper("scatter", {"--set", "scatter.striker.velocity=0.01", "--out", "s"}))
+                .output,
+            "predictable: ", "times with their standard deviations", "zone 1", "force: 8",
+            "64 runs");
+  const auto summary = nlohmann::json::parse(directory.read("s/scatter.json"));
   // The first contact ends 1.654 us later for each unit of ln v.
-  const double scatter = table_in(directory.path / "r/events.csv").at(0).number("end_scatter_s");
+  const double scatter = table_in(directory.path / "s/scatter.csv").at(0).number("end_scatter_s");
   EXPECT_NEAR(scatter, 0.01 * 1.654e-6, 0.01 * 1e-9);
-  EXPECT_NEAR(summary.at("predictability").at("zones").at(0).at("start_scatter_s"), 0.0, 1e-15);
-  const std::string events = directory.read("r/events.csv");
-  expect_in(events.substr(0, events.find('\n')), ",start_scatter_s,end_scatter_s,");
+  EXPECT_NEAR(summary.at("zones").at(0).at("start_scatter_s"), 0.0, 1e-15);
 }
 
-TEST_F(ARun, OfACaseWithoutScatterDoesNotSayHowFarItCanBePredicted) {
-  expect_not_in(run_program(of_paper("run", {"--out", "r"}), directory.path).output, "predictable");
-  const auto summary = nlohmann::json::parse(directory.read("r/summary.json"));
-  EXPECT_TRUE(summary.at("predictability").is_null());
+TEST_F(ScatterCommand, RefusesACaseInWhichNothingScattersAndRunNamesItForOthers) {
+  expect_in(run_in(directory, of_paper("scatter", {}), 2).errors, "nothing scatters");
+  expect_in(run_in(directory, of_paper("run", {"--set", "scatter.striker.velocity=0.01"})).output,
+            " scatter ", "--set scatter.striker.velocity=0.01");
 }
 
 TEST_F(ARun, AdvisesCommandsThatTheShellTakes) {

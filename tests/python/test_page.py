@@ -289,13 +289,6 @@ def test_a_page_is_drawn_before_it_has_loaded_with_a_stop_in_its_picture(tmp_pat
     assert "<title>drawn true true</title>" in done.stdout, re.findall("<title>.*?</title>", done.stdout)
 
 
-def test_what_scatter_leaves_is_on_the_page(elastic, tmp_path):
-    elastic.changed({"scatter.striker.velocity": 0.01, "time.end": 5e-4}).run(out=tmp_path)
-    text = page_of(tmp_path)
-    assert "<h2>Scatter</h2>" in text and "Predictable:" in text
-    assert data_of(text)["sub_impacts"][0]["end_scatter"] > 0
-
-
 def test_answers_are_those_of_the_screen_with_both_errors(kept):
     result, text = si.read_results(kept / "yielding"), page_of(kept / "yielding")
     printed = " ".join(result.report().split())

@@ -69,17 +69,7 @@ def test_a_yielding_beam_and_a_wish_are_those_of_the_program(yielding, tmp_path,
     assert result["accuracy.event_times"] == 1e-6 and "wish" in result.summary
 
 
-def test_what_scatter_leaves_is_that_of_the_program(elastic, tmp_path, program):
-    elastic["time.end"] = 5e-4
-    elastic["scatter.striker.velocity"] = 0.01
-    elastic["scatter.beam.thickness"] = 0.001
-    elastic.write(tmp_path / "case.toml")
-    done = program("run", tmp_path / "case.toml", "--out", tmp_path / "out")
-    result = si.run(elastic, jobs=2)
-    compare(result, tmp_path / "out")
-    assert np.isfinite(result.sub_impacts["start_scatter_s"][:result.n_predictable]).all()
-    assert result.report().split("standard deviations")[1].strip() in done.stdout
-    assert si.read_results(tmp_path / "out").n_predictable == result.n_predictable
+
 
 
 def test_columns_are_views_of_one_read_only_array(elastic):

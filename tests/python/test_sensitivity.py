@@ -1,6 +1,7 @@
 """Derivatives of event times."""
 
 import csv
+import math
 import os
 import signal
 import threading
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 import subimpact as si
+from subimpact.derivatives import END, FORCE, QUANTITIES, SHIFTS, START, VELOCITY
 
 NAN = pytest.approx(np.nan, nan_ok=True)
 BY = ["striker.velocity", "beam.thickness"]
@@ -17,6 +19,21 @@ BY = ["striker.velocity", "beam.thickness"]
 @pytest.fixture
 def strike(without_rows):
     return without_rows.changed({"time.end": 6e-4})
+
+
+@pytest.fixture
+def rigid(without_rows):
+    """A striker against a rigid bar, free to move."""
+    return without_rows.changed({"model.mesh": "rigid", "time.end": 5e-3, "model.section": "elastic"})
+
+
+def by(study, quantity, key, number=0):
+    return study.derivatives[number, quantity, study.keys.index(key)]
+
+
+def beam_share(case):
+    beam = math.prod(case[f"beam.{name}"] for name in ("length", "width", "thickness", "density"))
+    return beam / (case["striker.mass"] + beam)
 
 
 def test_the_table_is_the_file_of_the_program(strike, tmp_path, program):
@@ -50,22 +67,122 @@ def test_a_jacobian_is_the_change_of_times(strike):
         np.testing.assert_allclose((moved - ends)[:2] / shift, jacobian[:2, column], rtol=0.02)
 
 
+@pytest.mark.parametrize("law, n", [("hertz", 1.5), ("linear", 1.0)])
+def test_two_rigid_bodies_under_a_power_law_have_the_derivatives_of_the_closed_form(rigid, law, n):
+    """Under F = K lambda^n the contact of the reduced mass m' lasts T ~ (m'/K)^(1/(n+1)) v^((1-n)/(n+1)), with the peak
+    F ~ K (m' v^2/K)^(n/(n+1))."""
+    del rigid["contact.yield_pressure"], rigid["striker.nose_radius"]
+    case = rigid.changed({"contact.law": law, "contact.stiffness": 1e7 if law == "linear" else 5e9, "striker.velocity": 2.0})
+    study = si.sensitivity(case)
+    assert len(study.values) == 1 and not any(study.flags[0])
+    t, peak = study.values[0, END], study.values[0, FORCE]
+    share = beam_share(case)  # d ln m'/d ln m
+    for quantity, key, expected in (
+        (END, "striker.velocity", t * (1 - n) / (n + 1)), (END, "contact.stiffness", -t / (n + 1)),
+        (END, "striker.mass", t / (n + 1) * share), (END, "beam.density", t / (n + 1) * (1 - share)),
+        (FORCE, "striker.velocity", peak * 2 * n / (n + 1)), (FORCE, "contact.stiffness", peak / (n + 1)),
+    ):
+        assert by(study, quantity, key) == pytest.approx(expected, abs=1e-6 * (t if quantity == END else peak)), key
+
+
+def closed_velocity(case, unit_energy, v):
+    """The striker's velocity after an elasto-plastic impact at v; x: the largest indentation over that at first yield."""
+    share = beam_share(case)
+    energy = 0.5 * case["striker.mass"] * share * v * v / unit_energy
+
+    def work(x):
+        return 0.4 * (x**2.5 - max(x - 1, 0) ** 2.5)
+
+    low, high = 0.0, 1e3
+    for _ in range(200):
+        x = 0.5 * (low + high)
+        low, high = (x, high) if work(x) < energy else (low, x)
+    e = math.sqrt(1 - (low - 1) ** 1.5 / work(low))
+    return v * (1 - share - e * share)
+
+
+@pytest.mark.parametrize("v", [3.0, 15.9])
+def test_an_elasto_plastic_impact_has_the_derivative_of_its_restitution(rigid, v):
+    case = rigid.changed({"contact.law": "foundation", "striker.velocity": v})
+    study = si.sensitivity(case, "striker.velocity")
+    used = study.base.summary["used"]
+    stiffness = next(value for key, value in used.items() if key.startswith("contact_stiffness"))
+    unit = stiffness * used["yield_indentation_m"] ** 2.5
+    h = 1e-3
+
+    def f(shift):
+        return closed_velocity(case, unit, v * math.exp(shift))
+
+    expected = (8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h)
+    assert by(study, VELOCITY, "striker.velocity") == pytest.approx(expected, abs=1e-6 * v)
+
+
+@pytest.mark.parametrize("section, method", [("elastic", "exponential"), ("exact", "nystrom")])
+def test_the_identities_of_time_mass_and_length_hold(without_rows, section, method):
+    case = without_rows.changed({"model.section": section, "solver.method": method, "model.segments": 101, "time.end": 1e-3,
+                                 "contact.law": "foundation"})
+    study = si.sensitivity(case, jobs=2)
+    assert len(study.keys) == 9 and len(study.values) >= 5
+    for quantity in (START, END):
+        t = study.values[:, quantity]
+        rows = (t > 0) & np.array([not flags[quantity] for flags in study.flags])
+
+        def share(key):
+            return (study.derivatives[:, quantity, study.keys.index(key)] / t)[rows]
+
+        moduli = share("beam.youngs_modulus") + share("beam.yield_stress")
+        t = t.copy()
+        defects = (2 * moduli + share("striker.velocity") + 1, share("beam.density") + share("striker.mass") + moduli,
+                   share("beam.length") + share("beam.width") + share("beam.thickness") + share("striker.nose_radius")
+                   + 3 * share("striker.mass") - 1)
+        assert max(np.abs(defect).max() for defect in defects) < 1e-5
+
+
+def test_a_contact_that_merges_or_appears_within_the_shifts_is_flagged(without_rows):
+    case = without_rows.changed({"model.section": "elastic", "solver.method": "exponential", "model.segments": 51,
+                                 "time.end": 1e-3, "solver.rtol": 1e-13})
+
+    def count(velocity):
+        hits = case.changed({"striker.velocity": velocity}).run(error_bars="off", body_errors=False).sub_impacts
+        return int((hits["start_s"] < 0.9e-3).sum())
+
+    low = high = 10.0
+    while count(high) == count(low):
+        low, high = high, high * 1.01
+    n = count(low)
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (middle, high) if count(middle) == n else (low, middle)
+    for distance in (-5e-6, -5e-7, 5e-7, 5e-6):
+        study = si.sensitivity(case.changed({"striker.velocity": low * (1 + distance)}), "striker.velocity")
+        assert any(flag for flags in study.flags for flag in flags), distance
+
+
+def test_a_struck_point_at_the_centre_of_a_cell_has_a_kink(without_rows):
+    case = without_rows.changed({"model.section": "elastic", "solver.method": "exponential", "model.segments": 101, "time.end": 4e-4})
+    at_centre = si.sensitivity(case.changed({"striker.position": 40.5 / 101}), "striker.position")
+    assert "kink" in at_centre.flags[0][END]
+    assert si.sensitivity(case.changed({"striker.position": 40.75 / 101}), "striker.position").flags[0][END] == ""
+
+
+def test_results_do_not_depend_on_the_number_of_jobs(strike):
+    one, three = (si.sensitivity(strike, "striker.mass", jobs=jobs) for jobs in (1, 3))
+    np.testing.assert_array_equal(one.table, three.table)
+
+
+def test_central_differences_are_replaced_and_that_is_remarked(strike):
+    study = si.sensitivity(strike.changed({"solver.method": "central-difference"}), "striker.mass")
+    assert study.base.summary["used"]["method"] == "nystrom"
+    assert "by nystrom in place of central-difference" in study.remarks[0]
+
+
 def test_one_key_may_be_a_text_and_none_means_all(strike):
     assert si.sensitivity(strike, "striker.mass").keys == ["striker.mass"]
     everything = si.sensitivity(strike.changed({"time.end": 2.5e-4}))
     assert {"beam.length", "striker.velocity", "contact.stiffness"} <= set(everything.keys)
 
 
-def test_the_base_run_has_what_scatter_leaves_of_it(strike):
-    strike["scatter.striker.velocity"] = 0.01
-    base = si.sensitivity(strike, "striker.velocity").base
-    assert np.isfinite(base.sub_impacts["end_scatter_s"][0]) and base.n_predictable is not None
-    assert si.sensitivity(strike, "striker.mass").base.n_predictable is None
-
-
-@pytest.mark.parametrize("by, words", [("striker.velocty", "did you mean"),
-                                       ("striker.gap", "no logarithm"),
-                                       ("solver.method", "solver.method")])
+@pytest.mark.parametrize("by, words", [("striker.velocty", "did you mean"), ("striker.gap", "no logarithm"),
+                                       ("solver.method", "solver.method"), ("model.strike_refinement", "an end")])
 def test_keys_without_a_derivative_are_refused_by_name(strike, by, words):
     with pytest.raises(si.CaseError, match=words) as refused:
         si.sensitivity(strike, by)
@@ -84,3 +201,13 @@ def test_ctrl_c_without_derivatives_raises(strike):
     with pytest.raises(KeyboardInterrupt):
         si.sensitivity(slow, BY)
     timer.join()
+
+
+def test_forces_and_springs_are_shifted_together():
+    from subimpact.derivatives import shifted
+
+    case = si.Case(beam={"length": 1.0, "width": 0.02, "thickness": 0.01, "density": 7800.0, "youngs_modulus": 2.1e11,
+                         "springs": [{"position": 0.5, "stiffness": 4e4}]},
+                   striker={"mass": 0.2, "nose_radius": 0.01, "velocity": 1.0}, time={"end": 1e-3})
+    assert shifted(case, "beam.springs", SHIFTS[0])["beam.springs"][0]["stiffness"] == 4e4 * math.exp(SHIFTS[0])
+    assert len(QUANTITIES) == 6

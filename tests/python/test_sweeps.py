@@ -154,16 +154,6 @@ def test_samples_are_drawn_from_the_scatter_of_the_case(without_rows, tmp_path):
     assert of_plan.keys() == ["beam.width"]
 
 
-def test_without_samples_the_scatter_of_a_case_is_that_of_its_run(without_rows, tmp_path):
-    case = without_rows.changed({"time.end": 5e-4, "scatter.striker.velocity": 0.001})
-    sweep = si.sweep(case, {"striker.velocity": [10.0, 15.9]}, out=tmp_path, workers=2)
-    result = si.run(case)
-    assert sweep.runs["n_predictable"][1] == result.n_predictable
-    assert sweep.runs["predictable_until_s"][1] == result.summary["predictability"]["horizon_s"]
-    rows = sweep.sub_impacts[sweep.sub_impacts.run == 1]
-    np.testing.assert_array_equal(rows["end_scatter_s"], result.sub_impacts["end_scatter_s"])
-
-
 def test_without_a_directory_a_sweep_keeps_its_tables_as_long_as_it_lives(without_rows):
     sweep = si.sweep(without_rows.changed({"time.end": 2e-4}), {"striker.velocity": [10.0, 15.9]}, workers=0)
     directory = sweep.directory

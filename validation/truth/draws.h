@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "numerics/random.h"
+#include "random.h"
 
 namespace subimpact {
 

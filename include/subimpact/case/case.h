@@ -82,7 +82,7 @@ struct Case : Options {
   Scene scene;
   ModelOptions model;
   /// Relative standard deviations of numbers of the scene, by key: "striker.velocity". They do not
-  /// change the run; see study/predictability.h.
+  /// change the run; see subimpact.scatter() in Python.
   std::map<std::string, double> scatter;
   bool at_rest = true;  ///< Problem::at_rest
   int strikes = 1;      ///< that the beam receives (study/run_as_asked.h)

@@ -10,7 +10,6 @@
 
 #include "subimpact/io/output_directory.h"
 #include "subimpact/study/compare.h"
-#include "subimpact/study/sensitivity/sensitivity.h"
 #include "subimpact/study/stability.h"
 #include "subimpact/study/work_precision.h"
 
@@ -20,11 +19,6 @@ namespace subimpact {
 void write_comparison(const std::filesystem::path& directory, const Comparison& comparison);
 std::string comparison_csv(const Comparison& comparison);
 std::string matches_csv(const Comparison& comparison);
-
-/// sensitivity.csv: one row per number of a sub-impact, with, for each key of the study, its
-/// derivative by the logarithm of the key (d_<key>) and the error of the derivative (error_<key>).
-std::string sensitivity_csv(const Sensitivity& study);
-void write_sensitivity(const std::filesystem::path& directory, const Sensitivity& study);
 
 /// The reference, one line per point, and why a point is not right, in words.
 std::string work_precision_table(const WorkPrecision& study);

@@ -11,7 +11,6 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
-#include "subimpact/study/sensitivity/sensitivity.h"
 
 namespace subimpact {
 
@@ -39,14 +38,6 @@ std::string strike_table(const Result& result, bool all = true);
 /// have question marks. `fold`: three or more of these in succession are one line with their sums.
 std::string sub_impact_table(const Result& result, bool fold = true);
 
-/// For a case with scatter, in one line: how far it can be predicted, how well, why no further.
-std::string predictability_words(const Result& result);
-
-/// One line per sub-impact and one per zone, if numbers of the case scatter: starts and ends with
-/// their standard deviations; a line gives the reason where sub-impacts cannot be predicted. Then
-/// scatter_answers().
-std::string scatter_table(const Result& result);
-
 /// Why contact is over, or how close striker and beam come after the last sub-impact.
 std::string contact_over_words(const Result& result);
 
@@ -61,18 +52,8 @@ std::vector<std::pair<std::string, std::string>> error_part_words(const Result& 
 /// spring"; empty for a beam at rest without loads and springs.
 std::string others_in_scene(const Scene& scene);
 
-/// A number of a run in words: a line of the screen, a tile of a page.
-struct LabelledText {
-  std::string label;  ///< "scatter: force"
-  std::string text;   ///< "8925 +- 4 N"
-  std::string note;   ///< may be empty
-};
-
 /// Sets Result::answers and Result::verdict, with their words: the only place that makes them.
 void make_answers(const Case& input, Result& result);
-
-/// Numbers of the strike as a whole over the samples of a case with scatter: "scatter: force".
-std::vector<LabelledText> scatter_answers(const Result& result);
 
 /// The title and the strike, the verdict, a table of the answers with both errors of each, what the
 /// largest errors of the body come from and what to do about them, doubts and warnings; lines of at
@@ -80,7 +61,7 @@ std::vector<LabelledText> scatter_answers(const Result& result);
 /// and work. Of a result with answers (make_answers).
 std::string run_summary(const Case& input, const Result& result, bool verbose = false);
 
-/// The summary and the table of sub-impacts, and what scatter leaves of them, as a run prints them.
+/// The summary and the table of sub-impacts, as a run prints them.
 /// This and the next: of a result with answers (make_answers).
 std::string printed_report(const Case& input, const Result& result);
 
@@ -104,10 +85,6 @@ std::string comparison_table(const Comparison& comparison);
 /// sub-impact, with their errors and how much later they come than by the first model; then a
 /// sentence that compares each model with the first.
 std::string model_table(const std::vector<ModelRun>& runs);
-
-/// Starts and ends of all sub-impacts, and how much later they come per 1 % more of each key, with
-/// the digits that the errors allow.
-std::string sensitivity_table(const Sensitivity& study);
 
 /// What a run of a case will take, and what the first of its runs models, why. Throws InvalidCase.
 std::string explanation(const Case& input, const GivenKeys& given);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// What other runs of the same case, or of cases near it, show of a run. Studies fill it
-/// (study/judgement.h, study/predictability.h, study/run_as_asked.h); it is empty without them.
+/// (study/judgement.h, study/run_as_asked.h); it is empty without them.
 
 #include <cstddef>
 #include <optional>
@@ -34,8 +34,6 @@ struct SubImpactAssessment {
   /// Times extrapolated to the limit of fine meshes (s) and their uncertainty, where a sequence of
   /// meshes converges at the expected order.
   std::optional<double> start_mesh_limit, end_mesh_limit, mesh_limit_error;
-  /// s, standard deviations of start and end where numbers of the scene scatter.
-  std::optional<double> start_scatter, end_scatter;
 };
 
 /// A number of the run as a whole, and its estimated error; none: not known.
@@ -197,41 +195,11 @@ struct ToleranceOutcome {
   std::string key;                 ///< of the case, that prevents it and could be freed; or empty
 };
 
-/// How far a strike with scattering numbers can be predicted: standard deviations by first
-/// derivatives, and up to which time first derivatives are valid.
-struct Predictability {
-  /// The first sub-impact (from 0) that cannot be predicted; none if all can.
-  std::optional<std::size_t> first_unpredictable;
-  std::string reason;            ///< why that one cannot
-  double horizon = 0.0;          ///< s: the end of the last one before it
-  double largest_scatter = 0.0;  ///< s, of the starts and ends up to there
-
-  /// Standard deviations of a zone as a whole; none where they are not known.
-  struct Zone {
-    std::optional<double> start_scatter, end_scatter;  ///< s
-    std::optional<double> impulse_scatter;             ///< N s
-  };
-  std::vector<Zone> zones;
-  std::optional<double> striker_velocity_scatter;  ///< m/s, after the last sub-impact
-
-  /// A number of the strike as a whole over samples of the numbers that scatter.
-  struct Sampled {
-    std::string name;  ///< of its column in strikes.csv
-    double mean = 0.0, deviation = 0.0;
-    double quantile_5 = 0.0, quantile_95 = 0.0;
-    std::optional<double> nominal = {};  ///< of the case itself, on the mesh of the samples
-  };
-  std::vector<Sampled> totals;
-  std::size_t n_samples = 0;
-  std::string samples_mesh;  ///< in words: coarser than that of the run where it would take long
-};
-
 /// The assessment of a whole run.
 struct Assessment {
-  std::optional<ErrorEstimate> error_estimate;   ///< with error bars
-  std::optional<BodyErrors> body_errors;         ///< where they were estimated
-  std::optional<ToleranceOutcome> tolerance;     ///< of runs with a tolerance on event times
-  std::optional<Predictability> predictability;  ///< of a case with scatter
+  std::optional<ErrorEstimate> error_estimate;  ///< with error bars
+  std::optional<BodyErrors> body_errors;        ///< where they were estimated
+  std::optional<ToleranceOutcome> tolerance;    ///< of runs with a tolerance on event times
   /// Why mesh and method were chosen, if the program chose them; otherwise empty.
   std::string choice;
 

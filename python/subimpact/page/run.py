@@ -77,8 +77,7 @@ def _sub_impacts(hits: list[dict[str, str]], end: float) -> list[dict[str, Any]]
     return [{"start": float(hit["start_s"]), "end": float(hit["end_s"] or end), "ongoing": not hit["end_s"],
              "peak_force": float(hit["peak_force_N"]), "peak_time": float(hit["peak_time_s"]),
              "residual": float(hit["residual_indentation_m"]), "start_error": number(hit["start_error_s"]),
-             "end_error": number(hit["end_error_s"]), "start_scatter": number(hit["start_scatter_s"]),
-             "end_scatter": number(hit["end_scatter_s"]), "certain": hit["certain"] != "0"} for hit in hits]
+             "end_error": number(hit["end_error_s"]), "certain": hit["certain"] != "0"} for hit in hits]
 
 
 def _data(files: Files, summary: Mapping[str, Any], report: Mapping[str, Any], hits: list[dict[str, str]],
@@ -94,12 +93,11 @@ def _data(files: Files, summary: Mapping[str, Any], report: Mapping[str, Any], h
         history_note = f"Of {counts['history_rows']} rows the charts have {n_rows}, with the largest and smallest values of each span."
     meanings = dict(report["columns"])
     del meanings["time_s"]
-    predicted = summary["predictability"] or {}
     zones = (summary["rest"] or {}).get("plastic_zones", [])
     data: dict[str, Any] = {
         "end": end, **scene, "yields": bool(zones), "max_force": summary["maxima"]["force_N"],
         "max_indentation": summary["maxima"]["indentation_m"], "sub_impacts": _sub_impacts(hits, end),
-        "horizon": predicted["horizon_s"] if predicted.get("first_unpredictable_index") else None, "events": events,
+        "events": events,
         "plastic_zones": [{"from": zone["from_m"], "to": zone["to_m"], "rotation": zone["rotation_rad"]} for zone in zones],
         "overlay": overlay, "history": history, "meanings": meanings, "shapes": None, "envelope": None}
     n_points = summary["used"]["n_shape_points"]
@@ -244,9 +242,6 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
                            for each in flights),
         "strikes": strikes,
         "next": _section("What next", f'<dl class="steps">\n{steps}</dl>\n' if steps else ""),
-        "scatter": _section("Scatter", report["scatter"] and paragraphs([report["predictable"]], before="Predictable: ")
-                            + "<p>Standard deviations of the results, from those of the case's numbers:</p>\n"
-                            + f"<pre>{in_print(report['scatter'])}</pre>\n"),
         "measured": section,
         "history_note": history_note, "shapes_note": shapes_note,
         "figures_heading": "<h2>Figures</h2>\n" if shown.drawn else f'<h2 class="unprinted">Figures</h2>\n{none}',

@@ -9,9 +9,24 @@ from collections.abc import Sequence
 
 import matplotlib
 
+from .._command import Parser
 from .._errors import OutputError, ResultsError
 from .._text import printable
 from .directory import FORMATS, draw_directory
+
+
+_EXAMPLES = """Of a run: response, first-sub-impact, indentation, energies, timeline, shapes and envelope (both unless output.shapes
+= 0), bending, if the run kept sections (output.sections), and strikes, if there were several. Of a sweep: sweep_map,
+histograms. Of several runs: comparison. figures.json has their captions; `subimpact report` puts the figures of a run on
+its page.
+
+examples:
+  subimpact run case.toml --out out/first --set output.sections=0.5,0.4
+  subimpact plot out/first
+  subimpact plot out/first --out figures --format pdf --only response,timeline
+
+exit status: 0 done; 2 bad command line, files that no run has written, or Python without what is needed; 3 a figure
+could not be drawn or written, the others are."""
 
 
 def _say(text: str) -> None:
@@ -37,7 +52,8 @@ def _listed(text: str) -> list[str]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit status."""
-    parser = argparse.ArgumentParser(prog="subimpact plot", description="Draws the figures of a run, a sweep or a study.")
+    parser = Parser(prog="subimpact plot", description="Draws the figures of a run, a sweep or a study.", epilog=_EXAMPLES,
+                    formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", metavar="DIR", help="what subimpact run, work-precision or stability, or "
                         "subimpact-sweep has written")
     parser.add_argument("others", metavar="DIR", nargs="*", help="runs to compare that run with; --out is needed")

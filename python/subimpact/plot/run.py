@@ -244,10 +244,9 @@ def _widths(result: Result) -> Any:
 def timeline(result: Result, axes: Any) -> None:
     """Every sub-impact at the time it begins: duration and impulse, on logarithmic axes; numbers count
     the sub-impacts. Pale with open circles: not certain. Black bars: numerical errors of those that are
-    certain; purple bars: standard deviation of the start by the scatter of the case."""
+    certain."""
     hits, ends, zones = result.sub_impacts, _ends(result), _zones(result)
     time_unit, t = unit("time", result.time)
-    horizon = (result.summary["predictability"] or {}).get("horizon_s", np.inf)
     axes, widths = np.reshape(axes, (2, len(zones))), _widths(result)
     duration = 1e6 * (ends - hits["start_s"])
     rows = ((duration, 1e6 * (hits["start_error_s"] + hits["end_error_s"]), COLOURS[0], "#8CBEDF", "duration, µs"),
@@ -267,16 +266,12 @@ def timeline(result: Result, axes: Any) -> None:
                 x, y = t * hits["start_s"][which], values[which]
                 _bars(panel, x, x, limits[0], y, color=colour, linewidth=1)
                 if not doubtful:
-                    scatter, error = (np.nan_to_num(t * hits[f"start_{name}_s"][which]) for name in ("scatter", "error"))
-                    height = np.nan_to_num(errors[which])
-                    _bars(panel, x - scatter, x + scatter, y, y, color=COLOURS[3], linewidth=4)
+                    error, height = np.nan_to_num(t * hits["start_error_s"][which]), np.nan_to_num(errors[which])
                     _bars(panel, x - error, x + error, y, y, color="black", linewidth=0.8)
                     _bars(panel, x, x, np.maximum(y - height, limits[0]), y + height, color="black", linewidth=0.8)
                 panel.plot(x, y, "o", color=colour, markerfacecolor=face)
             tops = values + np.where(hits["certain"] == 1, np.nan_to_num(errors), 0.0)
             _number(panel, hits[of_zone], tops[of_zone], t, 0.02 / widths[column])
-            if horizon < end:
-                bands(panel, [t * max(horizon, start)], [t * end], "#F7EDF3")
             panel.set(title=title if row == 0 else "", ylabel=label if column == 0 else "",
                       xlabel=f"start, {time_unit}" if row == 1 else "")
             if column > 0:

@@ -7,10 +7,10 @@ import importlib
 import signal
 import sqlite3
 import sys
-import time
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
+from .._command import Display
 from .._errors import CaseError, PlanError, StoreError
 from .._text import printable
 from .plan import Plan
@@ -81,33 +81,10 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-class _Display:
-    """Shows on stderr how many cases are done, if that is a terminal."""
-
-    def __init__(self, quiet: bool) -> None:
-        self._is_shown = not quiet and sys.stderr.isatty()
-        self._start = time.monotonic()
-        self._first: int | None = None
-
-    def __call__(self, n_done: int, n_all: int) -> None:
-        if not self._is_shown:
-            return
-        if self._first is None:
-            self._first = n_done
-        seconds = time.monotonic() - self._start
-        n_new = n_done - self._first
-        left = f", {seconds * (n_all - n_done) / n_new:.0f} s left" if n_new else ""
-        print(f"\r\033[K{n_done} of {n_all} cases{left}", end="", file=sys.stderr, flush=True)
-
-    def end(self) -> None:
-        if self._is_shown:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
-
-
 def _run(options: argparse.Namespace, executor: Any) -> int:
     plan = Plan.from_file(options.plan)
     out = options.out or options.plan.rsplit("/", 1)[-1].removesuffix(".toml") + "-sweep"
-    display = _Display(options.quiet)
+    display = Display(options.quiet, "cases")
     try:
         done = sweep(
             plan,

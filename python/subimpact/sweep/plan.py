@@ -16,18 +16,19 @@ from typing import Any, Union
 
 import numpy as np
 
-from .. import _core
 from .._checks import is_positive, is_whole, seconds
-from .._errors import PlanError
+from .._errors import CaseError, PlanError
 from .._text import MOST_BYTES, is_unicode, read_at_most
 from .._toml import DEEPEST, flat, is_too_deep
-from ..case import Case, as_case, checked
+from ..case import Case, as_case, checked, key_of
 
 Axes = Mapping[Union[str, tuple[str, ...]], Iterable[Any]]
 
 #: Of a plan, and values of one of its axes.
 MOST_CASES = 10_000_000
 MOST_VALUES = 1_000_000
+_MOST_DRAWS = 1000
+_MOST_SCATTER = 0.5
 _SPLIT = "take fewer values, or make several plans of it"
 
 
@@ -65,8 +66,8 @@ class Plan:
             self._points.append(_points(keys, values))
             self._check_size()
         self.axes = {tuple(keys): values for keys, values in self._points}
+        self._check_axes()
         self._drawn = self._what_is_drawn()
-        self._population.check(self.case._load())
         #: the case that the settings of each run change, with the model that is chosen once for all
         self.base = self.case if self.samples is None else _without_scatter(self.case)
         self.base = self.base.changed(self._chosen())
@@ -116,17 +117,41 @@ class Plan:
             product = " times ".join(f"{n} of {name}" for name, n in sizes)
             raise PlanError(f"there are {n_cases} cases, {product}; allowed: up to {MOST_CASES}; {_SPLIT}")
 
+    def _check_axes(self) -> None:
+        seen: set[str] = set()
+        for keys, points in self._points:
+            for k, key in enumerate(keys):
+                if key in seen:
+                    raise CaseError(f"{key} is on two axes; give its values on one of them", key)
+                seen.add(key)
+                if not points:
+                    raise CaseError(f"{key} has no values on its axis", key)
+                for point in points:
+                    if len(point) != len(keys):
+                        raise CaseError(f"{key} changes together with others: every point of the axis needs {len(keys)} values, "
+                                        f"and one has {len(point)}", key)
+                    point[k] = checked(key, point[k])
+
+    def _first(self, key: str) -> Any:
+        """The value about which a number scatters, at the first combination of the axes."""
+        for keys, points in self._points:
+            if key in keys:
+                return points[0][keys.index(key)]
+        return self.case[key]
+
     def _what_is_drawn(self) -> dict[str, float]:
         if self.samples is None:
             if self.scatter:
                 raise PlanError("scatter is given without samples; give their number, such as 1000")
             return {}
         if self.scatter is not None:
-            drawn = dict(self.scatter)
+            drawn = {key: float(deviation) for key, deviation in sorted(self.scatter.items())}
+            for key, deviation in drawn.items():
+                self._check_drawn(key, deviation)
         else:
-            axes = self._made({})
-            axes.check(self.case._load())
-            drawn = axes.scatter_of(self.case._load())
+            given = ((key[len("scatter."):], value) for key, value in self.case.given().items() if key.startswith("scatter."))
+            drawn = {key: deviation for key, deviation in sorted(given) if deviation > 0 and is_number(self._first(key))
+                     and self._first(key) != 0}
         if not drawn:
             raise PlanError(
                 "samples are to be drawn, but nothing scatters; give scatter, here or as [scatter] "
@@ -134,36 +159,36 @@ class Plan:
             )
         return drawn
 
-    @cached_property
-    def _population(self) -> _core.Population:
-        return self._made(self._drawn)
-
-    def _made(self, drawn: Mapping[str, float]) -> _core.Population:
-        scatter = {key: float(value) for key, value in drawn.items()}
-        try:
-            return _core.Population(self._points, scatter, int(self.samples or 1), int(self.seed))
-        except (OverflowError, RuntimeError):  # a value that cannot be converted
-            for keys, points in self._points:
-                for point in points:
-                    for key, value in zip(keys, point):
-                        checked(key, value)
-            raise
-
-    def __getstate__(self) -> dict[str, Any]:
-        state = dict(self.__dict__)
-        state.pop("_population", None)
-        return state
+    def _check_drawn(self, key: str, deviation: float) -> None:
+        if key_of(key).type != "number":
+            raise CaseError(f"{key} is no number, and cannot scatter", key)
+        if not is_number(self._first(key)):
+            raise CaseError(f"{key} has no finite value in the base case about which to scatter", key)
+        if deviation > _MOST_SCATTER:
+            raise CaseError(f"{key} has a scatter of {deviation:g}; allowed: a relative standard deviation above 0, up to "
+                            f"{_MOST_SCATTER}, such as 0.01", key)
 
     def __len__(self) -> int:
-        return len(self._population)
+        return math.prod(len(points) for _, points in self._points) * int(self.samples or 1)
 
     def keys(self) -> list[str]:
         """The keys in which cases differ."""
-        return self._population.keys()
+        return list(dict.fromkeys([key for keys, _ in self._points for key in keys] + list(self._drawn)))
 
     def settings(self, number: int) -> list[tuple[str, Any]]:
         """The values in which a case differs from the base case."""
-        return self._population.settings(self.case._load(), number)
+        if not 0 <= number < len(self):
+            raise IndexError("number of a case")
+        rest, sample = divmod(number, int(self.samples or 1))
+        points = []
+        for keys, of_axis in reversed(self._points):
+            rest, place = divmod(rest, len(of_axis))
+            points.append((keys, of_axis[place]))
+        settings = {key: value for keys, point in reversed(points) for key, value in zip(keys, point)}
+        random = np.random.default_rng((int(self.seed), sample))
+        for key, deviation in self._drawn.items():
+            settings[key] = _drawn(random, key, settings[key] if key in settings else self.case[key], deviation)
+        return list(settings.items())
 
     def case_of(self, number: int) -> Case:
         """A case of the plan, by its number from 0."""
@@ -238,6 +263,21 @@ def _points(keys: str | tuple[str, ...], values: Iterable[Any]) -> tuple[list[st
             )
         points.append(list(islice(point, len(names) + 1)))
     return names, points
+
+
+def is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _drawn(random: np.random.Generator, key: str, value: float, deviation: float) -> float:
+    """A number that scatters; values that the key refuses are drawn again."""
+    for _ in range(_MOST_DRAWS):
+        try:
+            return float(checked(key, value * math.exp(deviation * random.standard_normal())))
+        except CaseError:
+            pass
+    raise CaseError(f"{key} scatters out of its range: no value of {_MOST_DRAWS} draws about {value:g} is allowed; make its scatter "
+                    "smaller", key)
 
 
 def _without_scatter(case: Case) -> Case:

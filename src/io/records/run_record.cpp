@@ -78,28 +78,6 @@ const Record<ZoneTotals> zone_totals_record = {
     {"impulse_Ns", "", &ZoneTotals::impulse, total_record},
     {"sub_impacts", "", &ZoneTotals::sub_impacts, total_record}};
 
-const Record<Predictability::Zone> zone_scatter_record = {
-    {"start_scatter_s", "standard deviation of the zone's start", &Predictability::Zone::start_scatter},
-    {"end_scatter_s", "that of its end", &Predictability::Zone::end_scatter},
-    {"impulse_scatter_Ns", "that of its impulse", &Predictability::Zone::impulse_scatter}};
-
-const Record<Predictability::Sampled> sampled_record = {
-    {"name", "of its column in strikes.csv", &Predictability::Sampled::name},
-    {"mean", "of the samples", &Predictability::Sampled::mean}, {"standard_deviation", "", &Predictability::Sampled::deviation},
-    {"quantile_5", "below which a twentieth of the samples lies", &Predictability::Sampled::quantile_5},
-    {"quantile_95", "above which a twentieth lies", &Predictability::Sampled::quantile_95},
-    {"nominal", "of the case itself, on the mesh of the samples", &Predictability::Sampled::nominal}};
-
-const Record<Predictability> predictability_record = {
-    {"horizon_s", "up to which the strike can be predicted", &Predictability::horizon},
-    {"first_unpredictable_index", "number, from 1, of the first sub-impact that cannot be", &Predictability::first_unpredictable, Form::from_one},
-    {"reason", "why it cannot", &Predictability::reason, Form::empty_is_null},
-    {"max_time_scatter_s", "largest standard deviation up to the horizon", &Predictability::largest_scatter},
-    {"zones", "", &Predictability::zones, zone_scatter_record},
-    {"striker_velocity_scatter_m_per_s", "standard deviation of the velocity at the end", &Predictability::striker_velocity_scatter},
-    {"samples", "of the numbers that scatter; each is a run", &Predictability::n_samples}, {"samples_mesh", "of these runs", &Predictability::samples_mesh},
-    {"totals", "over the samples", &Predictability::totals, sampled_record}};
-
 const Record<ClosestApproach> approach_record = {
     {"time_s", "when", &ClosestApproach::time},
     {"gap_m", "smallest gap", &ClosestApproach::gap},
@@ -329,7 +307,6 @@ Record<DescribedRun> make_run_record() {
       {"conservation.max_impulse_error_relative", "largest difference between an impulse and the integral of its force, over m v0", result(&Result::max_impulse_error)},
       {"error_bars", "errors of event times; null: not estimated", result(&Result::error_estimate), error_record},
       {"totals", "numbers of the run as a whole, each with its value and its error, which covers 95 of 100; null: not known, as of the largest strain where a hinge forms, in which strains grow without limit on finer meshes. by_zone: for each zone start_s, end_s, impulse_Ns, sub_impacts", &totals_json},
-      {"predictability", "of a case with scatter", result(&Result::predictability), predictability_record},
       {"work.steps", "steps of the method", work(&Work::steps)},
       {"work.rejected_steps", "steps repeated with another length", work(&Work::rejected_steps)},
       {"work.partial_steps", "steps made to compute states within a step", work(&Work::partial_steps)},

@@ -96,8 +96,6 @@ const RunTable<SubImpact>& run_table() {
        {"start_mesh_limit_s", "start extrapolated to the limit of fine meshes", &SubImpact::start_mesh_limit},
        {"end_mesh_limit_s", "end extrapolated to that limit", &SubImpact::end_mesh_limit},
        {"mesh_limit_error_s", "error of both limits", &SubImpact::mesh_limit_error},
-       {"start_scatter_s", "standard deviation of start_s by the case's [scatter]; this and the next: empty without", &SubImpact::start_scatter},
-       {"end_scatter_s", "standard deviation of end_s", &SubImpact::end_scatter},
        {"peak_force_error_N", "error of peak_force_N; this and the next: empty where not known", &SubImpact::peak_force_error},
        {"impulse_error_Ns", "error of impulse_Ns", &SubImpact::impulse_error},
        {"max_indentation_error_m", "error of max_indentation_m", &SubImpact::max_indentation_error},

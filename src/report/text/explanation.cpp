@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -195,12 +194,10 @@ std::string cost_section(const Case& first, const ResolvedSettings& used, const 
   const auto n = static_cast<double>(used.n_unknowns);
   // Natural modes may take another matrix, which is not stated.
   const double model = used.memory + (used.decomposition > 0.0 ? sizeof(double) * n * n : 0.0);
-  std::vector<std::string> without;
-  if (first.strikes > 1) without.push_back("strikes after the first, which each take as long");
-  if (!first.scatter.empty()) without.emplace_back("the runs that show the scatter");
   return "Forecast of `subimpact run`\n" +
-         line("time", fmt::format("{}{}{}", time, without.empty() ? "" : "; without ",
-                                  fmt::join(without, " and "))) +
+         line("time", time + (first.strikes > 1
+                                  ? "; without strikes after the first, which each take as long"
+                                  : "")) +
          line("memory", fmt::format("about {:.0f} MB on the first mesh, and {:.0f} MB for each run "
                                     "beside it",
                                     MB * (memory_beside + model), MB * model));

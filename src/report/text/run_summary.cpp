@@ -225,12 +225,6 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
   if (result.error_estimate && result.error_estimate->finer_meshes) {
     line("finer meshes", finer_meshes_words(result));
   }
-  if (result.predictability) {
-    line("predictable", predictability_words(result));
-    for (const LabelledText& scatter : scatter_answers(result)) {
-      text += labelled(scatter.label, scatter.text + ": " + scatter.note);
-    }
-  }
   for (const std::string& warning : result.warnings) line("warning", warning);
   return verbose ? text + '\n' + notes(result) + details(input, result) : text;
 }

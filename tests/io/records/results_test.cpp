@@ -48,7 +48,7 @@ TEST(EventsCsv, HasTheAgreedColumns) {
       "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s,certain,"
       "probability,start_error_s,end_error_s,start_body_error_s,end_body_error_s,"
       "error_time_s,error_mesh_s,error_layers_s,"
-      "start_mesh_limit_s,end_mesh_limit_s,mesh_limit_error_s,start_scatter_s,end_scatter_s,"
+      "start_mesh_limit_s,end_mesh_limit_s,mesh_limit_error_s,"
       "peak_force_error_N,impulse_error_Ns,max_indentation_error_m,residual_indentation_error_m,"
       "striker_velocity_error_m_per_s,doubt,peak_time_s,opening_m,opening_error_m\n");
 }

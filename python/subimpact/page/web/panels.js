@@ -205,7 +205,7 @@ class Loop {
 }
 
 // Durations of sub-impacts and of the separations after them, above the uncertainty of the time at
-// which each begins: bars from the axis, numerical error and scatter.
+// which each begins: bars from the axis, numerical error.
 class Timeline {
   constructor(strike, canvas, view, choose) {
     Object.assign(this, {strike, canvas, view, cursor: overlay(canvas, 'cursor')});
@@ -213,11 +213,11 @@ class Timeline {
     this.marks = [];
     hits.forEach((s, i) => {
       this.marks.push({kind: 'contact', index: i, time: s.start, value: s.end - s.start,
-                       error: s.start_error, scatter: s.start_scatter, certain: s.certain});
+                       error: s.start_error, certain: s.certain});
       const after = hits[i + 1];
       if (!after || s.ongoing) return;
       this.marks.push({kind: 'separation', index: i, time: s.end, value: after.start - s.end,
-                       error: s.end_error, scatter: s.end_scatter, certain: after.certain});
+                       error: s.end_error, certain: after.certain});
     });
     this.bars = Timeline.barStyles.filter(({name}) => this.marks.some((mark) => mark[name] > 0));
     canvas.addEventListener('click', (event) => {
@@ -227,7 +227,6 @@ class Timeline {
   }
 
   static barStyles = [
-    {name: 'scatter', words: 'scatter (one standard deviation)', colour: 'scatter', width: 9},
     {name: 'error', words: 'numerical error', colour: 'text', width: 3}];
 
   nearest(x, y) {
@@ -250,8 +249,7 @@ class Timeline {
     Object.assign(this.cursor.style, {left: `${canvas.offsetLeft}px`, top: `${canvas.offsetTop + axes.top}px`,
                                       height: `${axes.bottom - axes.top}px`});
     axes.frame();
-    axes.inside((draw) => {
-      this.drawHorizon(axes, draw);
+    axes.inside(() => {
       for (const bar of this.bars) this.marks.forEach((mark) => this.drawBar(axes, bar, mark));
       for (const {kind, time, value, certain} of this.marks) {
         this.drawMark(axes, kind, axes.toX(time * unit.per_second), axes.toY(1e6 * value), certain);
@@ -267,18 +265,6 @@ class Timeline {
     const least = Math.min(...values) / 1e3;
     const bars = this.bars.flatMap(({name}) => this.marks.map((mark) => 1e6 * mark[name]));
     return [...values, ...bars.filter((value) => value > least)];
-  }
-
-  drawHorizon(axes, draw) {
-    const {horizon, time_unit: unit} = this.strike;
-    if (typeof horizon !== 'number') return;
-    const x = Math.max(axes.toX(horizon * unit.per_second), axes.left);
-    if (x >= axes.right) return;
-    draw.fillStyle = colour('doubt-fill');
-    draw.fillRect(x, axes.top, axes.right - x, axes.bottom - axes.top);
-    axes.line([[x, axes.top], [x, axes.bottom]], {colour: colour('doubt'), width: 1.5, dash: [6, 4]});
-    const toLeft = x > axes.right - 120;
-    axes.text(toLeft ? 'predictable' : 'not predictable', toLeft ? x - 6 : x + 6, axes.top + 9, toLeft ? 'right' : 'left');
   }
 
   drawBar(axes, {name, colour: tone, width}, mark) {

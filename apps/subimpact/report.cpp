@@ -22,23 +22,6 @@ struct FinishedRunOptions {
   }
 };
 
-struct PlotOptions {
-  std::vector<std::string> directories;
-  std::string out, formats, only;
-};
-
-int plot(PlotOptions& options) {
-  std::vector<std::string> arguments;
-  for (const auto& [name, value] :
-       {std::pair("--out=", options.out), std::pair("--format=", options.formats),
-        std::pair("--only=", options.only)}) {
-    if (!value.empty()) arguments.push_back(name + value);
-  }
-  arguments.emplace_back("--");
-  arguments.insert(arguments.end(), options.directories.begin(), options.directories.end());
-  return run_python("subimpact.plot", arguments);
-}
-
 struct PassedOption {
   const char *name, *meaning;
 };
@@ -113,40 +96,7 @@ int report(FinishedRunOptions& options) {
   return done;
 }
 
-void add_plot(CLI::App& program, int& status) {
-  auto [command, options] =
-      add_command(program, status, "plot",
-                  "Draw the figures of a run, a sweep or a study (SVG, PNG and PDF)", plot);
-  command
-      .add_option("DIR", options.directories,
-                  "Output directory of `subimpact run`, `stability` or `work-precision`, or of "
-                  "subimpact-sweep; several of runs: one figure compares them")
-      ->required();
-  add_directory_option(
-      command, options.out,
-      "Directory for the figures; made if missing. Default: DIR/figures; needed with several");
-  command
-      .add_option("--format", options.formats,
-                  "File formats, separated by commas. Default: svg,png,pdf")
-      ->check(not_empty);
-  command
-      .add_option("--only", options.only,
-                  "Names of figures, separated by commas. Default: all there are")
-      ->check(not_empty);
-  command.footer(
-      "Of a run: response, first-sub-impact, indentation, energies, timeline, shapes and envelope "
-      "(both unless output.shapes = 0), bending, if the run kept sections (output.sections), and "
-      "strikes, if there were several. Of a sweep: sweep_map, histograms. Of several runs: "
-      "comparison. figures.json has their "
-      "captions; `subimpact report` puts the figures of a run on its page. Needs Python with "
-      "Matplotlib, where the package subimpact.plot draws them.\n"
-      "Examples:\n"
-      "  subimpact run case.toml --out out/first --set output.sections=0.5,0.4\n"
-      "  subimpact plot out/first\n"
-      "  subimpact plot out/first --out figures --format pdf --only response,timeline\n"
-      "Exit status: 0 done; 2 bad command line, files that no run has written, or Python without "
-      "what is needed; 3 a figure could not be drawn or written, the others are.");
-}
+}  // namespace
 
 void add_report(CLI::App& program, int& status) {
   auto [command, options] =
@@ -192,13 +142,6 @@ void add_report(CLI::App& program, int& status) {
       "  subimpact report out/first --measured force.csv --low-pass 20kHz\n"
       "Exit status: 0 done; 2 bad command line, files that no run or instrument has written, or a "
       "page that cannot be written; 3 the comparison with a measurement cannot be written.");
-}
-
-}  // namespace
-
-void add_plot_and_report(CLI::App& program, int& status) {
-  add_plot(program, status);
-  add_report(program, status);
 }
 
 }  // namespace subimpact::app

@@ -1,0 +1,162 @@
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "case/shifted_case.h"
+#include "finished.h"
+#include "overseer.h"
+#include "report/text/uncertain.h"
+#include "simulate/settings/methods.h"
+#include "study/method_choice.h"
+#include "study/refinement/refinement.h"
+#include "subimpact/io/case_file.h"
+#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/run_as_asked.h"
+
+namespace subimpact::python {
+namespace {
+
+std::string as_chosen(const LoadedCase& loaded, Jobs jobs) {
+  Overseer overseer(py::none(), std::nullopt);
+  const Case chosen = [&] {
+    const py::gil_scoped_release released;
+    return with_places(loaded, [&] {
+      return case_as_chosen(loaded.value, loaded.given, jobs,
+                            [&overseer](double) { return overseer.goes_on(); });
+    });
+  }();
+  overseer.finish();
+  if (overseer.interrupted()) {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw py::error_already_set();
+  }
+  return case_file_text(chosen);
+}
+
+// At rtol 1e-13 or less. Where events would be interpolated within fixed steps, whose phase makes
+// times jump, the method is nystrom, or erk for a damped strike.
+Case for_derivatives(const Case& input) {
+  constexpr double tightest = 1e-13;
+  Case base = input;
+  if (events_of(input) == EventHandling::interpolated) {
+    base.solver = {};
+    base.solver.method = possible_method(input, Method::nystrom);
+  }
+  base.solver.rtol = std::min(input.solver.rtol, tightest);
+  base.accuracy.event_times.reset();
+  base.output.keep_no_rows();
+  if (const auto step = resolve(base).settings().step) base.solver.step = step;
+  return base;
+}
+
+// Nothing where the scene does not allow the mesh.
+std::optional<Case> resized(const Case& input, double ratio) {
+  const std::optional<RefinedRun> other = on_other_mesh(input, ratio);
+  return other && can_run(other->input) ? std::optional(other->input) : std::nullopt;
+}
+
+// The case on a mesh, coarser if need be but at least an eighth as fine, on which so many runs take
+// no more than a bound of counted work. Makes a run a quarter as fine to know it.
+Case affordable(const Case& input, double n_runs) {
+  constexpr double most_work = 3e9, tried = 0.25, coarsest = 0.125;
+  const std::optional<Case> coarse = resized(input, tried);
+  if (!coarse) return input;
+  NoRows none;
+  const double all = n_runs * counted_work(*coarse, simulate(*coarse, {}, nullptr, &none));
+  const double ratio = tried * std::pow(most_work / all, 1.0 / usual_growth);
+  return ratio >= 1.0 ? input : resized(input, std::max(ratio, coarsest)).value_or(*coarse);
+}
+
+using Times = std::vector<std::pair<double, double>>;  // start and end, s; infinity: still open
+
+std::vector<SubImpact> sub_impacts_at(const Times& times) {
+  std::vector<SubImpact> all(times.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].start = times[i].first;
+    if (std::isfinite(times[i].second)) all[i].end = times[i].second;
+  }
+  return all;
+}
+
+// Pairs of indices; none where the other run has no counterpart.
+auto matched(const Times& first, const Times& second) {
+  std::vector<std::pair<std::optional<std::size_t>, std::optional<std::size_t>>> pairs;
+  for (const auto& pair : match_sub_impacts(sub_impacts_at(first), sub_impacts_at(second))) {
+    pairs.emplace_back(pair.first, pair.second);
+  }
+  return pairs;
+}
+
+auto counterparts_of(const Times& base, const Times& other) {
+  const std::vector<SubImpact> there = sub_impacts_at(other);
+  const Counterparts found = counterparts(sub_impacts_at(base), there);
+  std::vector<std::optional<std::size_t>> of;
+  for (const SubImpact* one : found.of) {
+    of.push_back(one != nullptr ? std::optional(static_cast<std::size_t>(one - there.data()))
+                                : std::nullopt);
+  }
+  return std::pair(of, found.follows_new_one);
+}
+
+// The margins in another run of the near misses of a run, as far as both have the same sub-impacts.
+std::vector<double> matched_margins(const Finished& run, const Finished& other) {
+  const std::size_t n =
+      n_leading_matches(match_sub_impacts(run.result.sub_impacts, other.result.sub_impacts));
+  std::vector<double> margins;
+  for (const std::optional<std::size_t>& there : match_near_misses(run.result, other.result, n)) {
+    margins.push_back(there ? other.result.near_misses[*there].margin
+                            : std::numeric_limits<double>::quiet_NaN());
+  }
+  return margins;
+}
+
+std::optional<std::pair<std::string, std::string>> rounded(double value, double error,
+                                                           int most_decimals) {
+  const std::optional<Rounding> rounding = rounding_of(error, most_decimals);
+  if (!rounding) return std::nullopt;
+  return std::pair(with_decimals(value, rounding->decimals), rounding->error);
+}
+
+std::optional<std::string> why_no_derivative(const LoadedCase& loaded, const std::string& key) {
+  return why_not_shifted(loaded.value, key_of(key));
+}
+
+}  // namespace
+
+void bind_studies(py::module_& module) {
+  module.def("shifted_keys", [](const LoadedCase& loaded) { return shifted_keys(loaded.value); });
+  module.def("why_not_shifted", &why_no_derivative);
+  module.def("as_chosen", &as_chosen);
+  module.def("for_derivatives", [](const LoadedCase& loaded) {
+    return with_places(loaded, [&] { return case_file_text(for_derivatives(loaded.value)); });
+  });
+  module.def("affordable", [](const LoadedCase& loaded, double n_runs) {
+    return with_places(loaded, [&] { return case_file_text(affordable(loaded.value, n_runs)); });
+  });
+  module.def("matched", &matched);
+  module.def("counterparts", &counterparts_of);
+  module.def("matched_margins", &matched_margins);
+  module.def("first_in_doubt", [](const Finished& run, std::size_t near_miss) {
+    return first_in_doubt(run.result, run.result.near_misses.at(near_miss));
+  });
+  module.def("moving_mass",
+             [](const Finished& run) { return run.input.scene.bodies().moving_mass(); });
+  module.def("velocity_scale",
+             [](const Finished& run) { return run.input.scene.bodies().velocity_scale(); });
+  module.def("rounded", &rounded);
+  module.def("parsed_setting", [](const std::string& text) {
+    const Override setting = parse_override(text);
+    return std::tuple(setting.key, setting.value, setting.origin);
+  });
+}
+
+}  // namespace subimpact::python
