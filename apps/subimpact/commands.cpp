@@ -43,6 +43,20 @@ void check_name(const std::string& option, const char* what, const std::string& 
           : fmt::format("did you mean \"{}{}\"?", method.empty() ? "" : method + ":", meant)));
 }
 
+// A refusal of a text that does not fit. `allowed`: what fits, in words.
+template <class Fits>
+auto refused_unless(Fits fits, const std::string& allowed) {
+  return [=](const std::string& text) {
+    return fits(text) ? std::string() : fmt::format("is \"{}\"; allowed: {}", text, allowed);
+  };
+}
+
+// A time above 0 with its unit, in seconds: "1us", "0.5 ms", "2e-7s". Nothing for any other text.
+std::optional<double> seconds_of(const std::string& text) {
+  const std::optional<double> value = value_in("s", text);
+  return value && *value > 0.0 && std::isfinite(*value) ? value : std::nullopt;
+}
+
 }  // namespace
 
 ExitStatus status_of(OutcomeKind outcome) {
@@ -59,50 +73,50 @@ std::string not_empty(const std::string& text) {
   return text.empty() ? "is empty; give a value, or leave the option out" : std::string();
 }
 
-CLI::Option* add_directory_option(CLI::App& command, std::string& directory,
-                                  const std::string& meaning) {
-  return command.add_option("--out", directory, meaning)->check(not_empty);
+Option of_directory(std::string& directory, const std::string& meaning) {
+  return {"--out", &directory, meaning, not_empty};
 }
 
-void CaseOptions::add_to(CLI::App& command) {
-  add_case_to(command);
-  command
-      .add_option("--method", method,
-                  "Time integration method, instead of solver.method; see `subimpact methods`")
-      ->check(not_empty);
+std::vector<Option> CaseOptions::of_case() {
+  Option set = {
+      "--set", &settings,
+      "table.key=value, instead of the value in the case file; table.key=default: as if the "
+      "file did not have the key (but for a title); may be repeated: the last one holds"};
+  set.is_repeated = true;
+  Option of_file = {"CASE", &file, "Case file (TOML); `subimpact keys` lists its keys"};
+  of_file.is_required = true;
+  return {of_file, set};
 }
 
-void CaseOptions::add_within_to(CLI::App& command) {
-  add_time_option(command, "--within", within,
-                  "Bound on the error of every event time, with its unit: 1us. The program "
-                  "chooses what the case leaves open of mesh, method and tolerance. Instead of "
-                  "accuracy.event_times");
+std::vector<Option> CaseOptions::of_case_and_method() {
+  return of_case() +
+         std::vector<Option>{
+             {"--method", &method,
+              "Time integration method, instead of solver.method; see `subimpact methods`",
+              not_empty}};
 }
 
-void CaseOptions::add_opening_to(CLI::App& command) {
+Option CaseOptions::of_within() {
+  return {"--within", &within,
+          "Bound on the error of every event time, with its unit: 1us. The program "
+          "chooses what the case leaves open of mesh, method and tolerance. Instead of "
+          "accuracy.event_times",
+          refused_unless([](const std::string& text) { return seconds_of(text).has_value(); },
+                         "a time above 0 with its unit, such as 1us, 0.5ms or 20ns")};
+}
+
+Option CaseOptions::of_opening() {
   const auto is_length = [](const std::string& given) {
     const std::optional<double> value = value_in("m", given);
     return value && *value >= 0.0 && std::isfinite(*value);
   };
-  command
-      .add_option("--opening", opening,
-                  "Contacts between which striker and beam part by less than this length, with its "
-                  "unit, are joined: 1um. Instead of output.opening")
-      ->check(
-          refused_unless(is_length, "a length, 0 or above, with its unit, such as 1um or 0.01mm"));
+  return {"--opening", &opening,
+          "Contacts between which striker and beam part by less than this length, with its "
+          "unit, are joined: 1um. Instead of output.opening",
+          refused_unless(is_length, "a length, 0 or above, with its unit, such as 1um or 0.01mm")};
 }
 
-void CaseOptions::add_case_to(CLI::App& command) {
-  command.add_option("CASE", file, "Case file (TOML); `subimpact keys` lists its keys")->required();
-  command
-      .add_option(
-          "--set", settings,
-          "table.key=value, instead of the value in the case file; table.key=default: as if the "
-          "file did not have the key (but for a title); may be repeated: the last one holds")
-      ->allow_extra_args(false);
-}
-
-LoadedCase CaseOptions::load(const std::vector<Override>& by_options) const {
+LoadedCase CaseOptions::load() const {
   std::vector<Override> overrides;
   for (const std::string& setting : settings) overrides.push_back(parse_override(setting));
   if (!method.empty()) overrides.push_back({"solver.method", method, "--method " + method});
@@ -114,7 +128,6 @@ LoadedCase CaseOptions::load(const std::vector<Override>& by_options) const {
     overrides.push_back({"output.opening", fmt::format("{}", value_in("m", opening).value()),
                          "--opening " + opening});
   }
-  overrides.insert(overrides.end(), by_options.begin(), by_options.end());
   LoadedCase loaded = read_case_file(file, overrides, choose_scene);
   if (may_repeat || loaded.value.strikes == 1) return loaded;
   throw CaseFileError(loaded.message(InvalidCase(
@@ -129,35 +142,29 @@ std::string CaseOptions::directory_with(const std::string& ending) const {
 
 Jobs n_processors() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-void add_jobs_option(CLI::App& command, Jobs& jobs) {
-  command
-      .add_option("--jobs", jobs,
-                  "Largest number of runs in parallel; results do not depend on it. Default: the "
-                  "number of processors")
-      ->check(CLI::Range(1u, 1024u));
+Option of_jobs(Jobs& jobs) {
+  return {"--jobs", &jobs,
+          "Largest number of runs in parallel; results do not depend on it. Default: the "
+          "number of processors",
+          refused_unless(
+              [](const std::string& text) {
+                const double n = std::strtod(text.c_str(), nullptr);
+                return n >= 1.0 && n <= 1024.0 && n == std::floor(n);
+              },
+              "a whole number from 1 to 1024")};
 }
 
-std::optional<double> seconds_of(const std::string& text) {
-  const std::optional<double> value = value_in("s", text);
-  return value && *value > 0.0 && std::isfinite(*value) ? value : std::nullopt;
-}
-
-CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::string& text,
-                             const std::string& meaning) {
-  return command.add_option(names, text, meaning)
-      ->check(refused_unless([](const std::string& given) { return seconds_of(given).has_value(); },
-                             "a time above 0 with its unit, such as 1us, 0.5ms or 20ns"));
-}
-
-CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, double& seconds,
-                                const std::string& meaning) {
+Option of_seconds(const char* name, double& seconds, const std::string& meaning) {
   const auto fits = [](const std::string& text) {
     const double value = std::strtod(text.c_str(), nullptr);
     return value > 0.0 && std::isfinite(value);
   };
-  return command.add_option(name, seconds, meaning)
-      ->check(refused_unless(fits, "seconds, finite and above 0"))
-      ->capture_default_str();
+  return {name, &seconds, meaning, refused_unless(fits, "seconds, finite and above 0")};
+}
+
+Option of_choices(const char* name, std::vector<std::string>& values, const char* key,
+                  const std::string& meaning) {
+  return {name, &values, meaning, {}, find_case_key(key)->choice_names()};
 }
 
 std::vector<std::string> print_doubts(const LoadedCase& loaded, bool quiet) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "command_line.h"
 #include "progress.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/output_directory.h"
@@ -49,31 +49,32 @@ struct CaseOptions {
   std::string opening;      // empty, or a length with its unit
   bool may_repeat = false;  // whether the command takes repeat.strikes
 
-  void add_to(CLI::App& command);
-  void add_within_to(CLI::App& command);
-  void add_opening_to(CLI::App& command);
-  /// Without --method, for commands that run methods of their own choice.
-  void add_case_to(CLI::App& command);
-  /// With `by_options` after the settings of --set and --method. Throws CaseFileError.
-  LoadedCase load(const std::vector<Override>& by_options = {}) const;
+  /// CASE and --set.
+  std::vector<Option> of_case();
+  /// These and --method.
+  std::vector<Option> of_case_and_method();
+  Option of_within();
+  Option of_opening();
+  /// Throws CaseFileError.
+  LoadedCase load() const;
   /// The case file's name without its ending, and this ending, in the current directory.
   std::string directory_with(const std::string& ending) const;
 };
 
-/// A check of an option: an empty value would count as none.
+/// Options that several commands have. `of_directory`: --out.
+Option of_directory(std::string& directory, const std::string& meaning);
+Option of_jobs(Jobs& jobs);
+Option of_seconds(const char* name, double& seconds, const std::string& meaning);
+/// A list of values of a key that has choices.
+Option of_choices(const char* name, std::vector<std::string>& values, const char* key,
+                  const std::string& meaning);
+/// A refusal of an empty text, which would count as none.
 std::string not_empty(const std::string& text);
 
-/// A check of an option whose text is refused where `fits` is false. `allowed`: what fits, in
-/// words.
-template <class Fits>
-auto refused_unless(Fits fits, const std::string& allowed) {
-  return [=](const std::string& text) {
-    return fits(text) ? std::string() : fmt::format("is \"{}\"; allowed: {}", text, allowed);
-  };
+inline std::vector<Option> operator+(std::vector<Option> first, const std::vector<Option>& more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
 }
-
-CLI::Option* add_directory_option(CLI::App& command, std::string& directory,
-                                  const std::string& meaning);
 
 /// What `body` returns. An InvalidCase becomes a CaseFileError with the place of its key.
 template <class Body>
@@ -96,7 +97,6 @@ bool write_after_printing(OutputDirectory& directory,
                           const std::function<void(const std::filesystem::path&)>& write);
 
 Jobs n_processors();
-void add_jobs_option(CLI::App& command, Jobs& jobs);
 
 struct StudyOptions {
   CaseOptions input;
@@ -104,30 +104,6 @@ struct StudyOptions {
   std::string directory;
   Jobs jobs = n_processors();
 };
-
-/// A time above 0 with its unit, in seconds: "1us", "0.5 ms", "20ns", "2e-7s". Nothing for any
-/// other text; a number alone has no unit.
-std::optional<double> seconds_of(const std::string& text);
-
-CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::string& text,
-                             const std::string& meaning);
-
-CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, double& seconds,
-                                const std::string& meaning);
-
-/// An option whose values are separated by commas.
-inline CLI::Option* add_list_option(CLI::App& command, const std::string& name,
-                                    std::vector<std::string>& values, const std::string& meaning) {
-  return command.add_option(name, values, meaning)->delimiter(',');
-}
-
-/// A list of values of a key that has choices.
-inline CLI::Option* add_choices_option(CLI::App& command, const std::string& name,
-                                       std::vector<std::string>& values, const char* key,
-                                       const std::string& meaning) {
-  return add_list_option(command, name, values, meaning)
-      ->check(CLI::IsMember(find_case_key(key)->choice_names()));
-}
 
 /// Refuses methods and tables that do not exist, naming the option --methods. Throws CaseFileError.
 void check_method_names(const std::vector<std::string>& methods);
@@ -157,19 +133,16 @@ struct StudySession {
   }
 };
 
-/// Adds a command, which leaves the exit status that `run` returns in `status`. Returns the command
-/// and its options, which live as long as the command.
-template <class Options>
-std::pair<CLI::App&, Options&> add_command(CLI::App& program, int& status, const char* name,
-                                           const char* description, int (*run)(Options&)) {
-  CLI::App* command = program.add_subcommand(name, description);
-  const auto options = std::make_shared<Options>();
-  command->callback([=, &status] { status = run(*options); });
-  return {*command, *options};
-}
+Command new_command(), run_command(), compare_command(), work_precision_command(),
+    stability_command(), explain_command(), report_command();
+std::vector<Command> python_commands(), listing_commands();
 
-using AddCommands = void(CLI::App& program, int& status);
-AddCommands add_run, add_compare, add_work_precision, add_stability, add_explain, add_new,
-    add_report, add_python, add_listings, add_manual;
+/// Runs a module of Python's package subimpact with these arguments, its streams being those of the
+/// program, and returns its exit status: 128 and the number of a signal that ended it. The
+/// interpreter is that of the environment variable SUBIMPACT_PYTHON_EXECUTABLE, else the one that
+/// CMake found; the package is that of the build tree or the installation of the program, else what
+/// the interpreter has. Where a module is missing, one line on stderr says what to install, and the
+/// status is `refused`.
+int run_python(const std::string& module, const std::vector<std::string>& arguments);
 
 }  // namespace subimpact::app

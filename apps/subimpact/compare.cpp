@@ -90,34 +90,34 @@ int run_comparison(CompareOptions& options) {
                      "; the methods above are those that had ended");
 }
 
+std::vector<Option> options_of(CompareOptions& options) {
+  Option methods = {"--methods", &options.methods,
+                    "Methods to compare, separated by commas; a method's table after a colon, "
+                    "its solver.events after a plus sign"};
+  methods.excludes = {"--method"};
+  Option theories =
+      of_choices("--theories", options.theories, "beam.theory",
+                 "Beam theories to compare instead, separated by commas: event times of each, "
+                 "with their errors, and how much later they come than by the first");
+  theories.excludes = {"--methods"};
+  Option laws = of_choices("--laws", options.laws, "contact.law",
+                           "Contact laws to compare instead, separated by commas, each with the "
+                           "constants that the case gives for it");
+  laws.excludes = {"--methods", "--theories"};
+  Option directory = of_directory(options.directory,
+                                  "Directory for comparison.csv and matches.csv; made if missing. "
+                                  "Without it nothing is written");
+  directory.excludes = {"--theories", "--laws"};
+  return options.input.of_case_and_method() +
+         std::vector<Option>{options.input.of_opening(), methods, theories, laws, directory};
+}
+
 }  // namespace
 
-void add_compare(CLI::App& program, int& status) {
-  auto [command, options] = add_command(
-      program, status, "compare", "Run one scene by several methods, beam theories or contact laws",
-      run_comparison);
-  options.input.add_to(command);
-  options.input.add_opening_to(command);
-  add_list_option(command, "--methods", options.methods,
-                  "Methods to compare, separated by commas; a method's table after a colon, "
-                  "its solver.events after a plus sign");
-  add_choices_option(command, "--theories", options.theories, "beam.theory",
-                     "Beam theories to compare instead, separated by commas: event times of each, "
-                     "with their errors, and how much later they come than by the first")
-      ->excludes("--methods");
-  add_choices_option(
-      command, "--laws", options.laws, "contact.law",
-      "Contact laws to compare instead, separated by commas, each with the constants "
-      "that the case gives for it")
-      ->excludes("--methods")
-      ->excludes("--theories");
-  add_directory_option(command, options.directory,
-                       "Directory for comparison.csv and matches.csv; made if missing. Without it "
-                       "nothing is written")
-      ->excludes("--theories")
-      ->excludes("--laws");
-  command.get_option("--method")->excludes("--methods");
-  command.footer(
+Command compare_command() {
+  return command_with(
+      "compare", "Run one scene by several methods, beam theories or contact laws", run_comparison,
+      options_of,
       "Every method runs at the case's solver.rtol, fixed-step methods at their default step or "
       "solver.step. They are compared with nystrom at rtol 1e-11, whose own error is stated; "
       "sub-impacts are matched one to one.\n"

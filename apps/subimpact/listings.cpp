@@ -44,32 +44,51 @@ struct ListingOptions {
   std::string word;        // of `keys`: in those wanted
 };
 
-template <std::string (*listing)()>
-int print_listing(ListingOptions&) {
-  print("{}", listing());
-  return done;
-}
-
 int print_keys(ListingOptions& options) {
   const std::string listing = options.as_schema ? case_schema() : key_listing(options.word);
   if (listing.empty()) {
-    throw CLI::ValidationError("WORD",
-                               "no key has \"" + options.word + "\" in it; all: subimpact keys");
+    throw UsageError("WORD", "no key has \"" + options.word + "\" in it; all: subimpact keys");
   }
   print("{}", listing);
   return done;
 }
 
+std::vector<Option> explain_options(CaseOptions& options) {
+  options.may_repeat = true;
+  return options.of_case_and_method() + std::vector<Option>{options.of_within()};
+}
+
+std::vector<Option> new_options(NewOptions& options) {
+  return {{"SCENE",
+           &options.scene,
+           "One of these; without it, all are listed, a line each",
+           {},
+           scenes}};
+}
+
+std::vector<Option> key_options(ListingOptions& options) {
+  Option schema = {"--schema", &options.as_schema,
+                   "Print a JSON schema (draft 2020-12) of the case file instead, for editors"};
+  schema.excludes = {"WORD"};
+  return {
+      {"WORD", &options.word, "List only keys with this word in their name, meaning or choices"},
+      schema};
+}
+
+Command listing_command(const char* name, const char* description, std::string footer,
+                        std::string (*listing)()) {
+  return {name, description, {}, std::move(footer), [=](const auto&) -> int {
+            print("{}", listing());
+            return done;
+          }};
+}
+
 }  // namespace
 
-void add_explain(CLI::App& program, int& status) {
-  auto [command, options] =
-      add_command(program, status, "explain",
-                  "Show what a run of a case will take and how it will be modelled", explain);
-  options.add_to(command);
-  options.add_within_to(command);
-  options.may_repeat = true;
-  command.footer(
+Command explain_command() {
+  return command_with(
+      "explain", "Show what a run of a case will take and how it will be modelled", explain,
+      explain_options,
       "Examples:\n"
       "  subimpact explain case.toml\n"
       "  subimpact explain case.toml --within 1us\n"
@@ -77,40 +96,33 @@ void add_explain(CLI::App& program, int& status) {
       "Exit status: 0 done; 2 bad command line or case file.");
 }
 
-void add_new(CLI::App& program, int& status) {
-  auto [command, options] = add_command(
-      program, status, "new", "Print a commented case file to begin with", print_new_case);
-  command
-      .add_option("SCENE", options.scene, "One of these; without it, all are listed, a line each")
-      ->check(CLI::IsMember(scenes));
-  command.footer(
-      "Examples:\n"
-      "  subimpact new\n"
-      "  subimpact new cantilever > case.toml && subimpact run case.toml");
+Command new_command() {
+  return command_with("new", "Print a commented case file to begin with", print_new_case,
+                      new_options,
+                      "Examples:\n"
+                      "  subimpact new\n"
+                      "  subimpact new cantilever > case.toml && subimpact run case.toml");
 }
 
-void add_listings(CLI::App& program, int& status) {
-  add_command(program, status, "methods", "List the time integration methods and Butcher tables",
-              print_listing<method_listing>)
-      .first.footer("Example:\n  subimpact methods");
-  auto [command, options] =
-      add_command(program, status, "keys",
-                  "List the keys of a case file: units, allowed values, defaults", print_keys);
-  CLI::Option* word = command.add_option(
-      "WORD", options.word, "List only keys with this word in their name, meaning or choices");
-  command
-      .add_flag("--schema", options.as_schema,
-                "Print a JSON schema (draft 2020-12) of the case file instead, for editors")
-      ->excludes(word);
-  command.footer(
-      "Examples:\n  subimpact keys\n  subimpact keys yield\n  subimpact keys --schema > "
-      "subimpact.schema.json\n\n"
-      "A case file that begins with `#:schema ./subimpact.schema.json` is then completed and\n"
-      "checked by editors that use Taplo (in VS Code: the extension Even Better TOML).");
-  add_command(program, status, "columns",
-              "List the columns of the CSV tables that a run writes: units, meanings",
-              print_listing<column_listing>)
-      .first.footer("Example:\n  subimpact columns");
+std::vector<Command> listing_commands() {
+  return {
+      listing_command("methods", "List the time integration methods and Butcher tables",
+                      "Example:\n  subimpact methods", method_listing),
+      command_with(
+          "keys", "List the keys of a case file: units, allowed values, defaults", print_keys,
+          key_options,
+          "Examples:\n  subimpact keys\n  subimpact keys yield\n  subimpact keys --schema > "
+          "subimpact.schema.json\n\n"
+          "A case file that begins with `#:schema ./subimpact.schema.json` is then completed and\n"
+          "checked by editors that use Taplo (in VS Code: the extension Even Better TOML)."),
+      listing_command("columns",
+                      "List the columns of the CSV tables that a run writes: units, meanings",
+                      "Example:\n  subimpact columns", column_listing),
+      listing_command(
+          "completion", "Print the completion of commands and options for bash",
+          "Example, in ~/.bashrc, where no package has put it in place:\n  source <(subimpact "
+          "completion)",
+          [] { return std::string(embedded_file("../../apps/subimpact/completion.bash")); })};
 }
 
 }  // namespace subimpact::app

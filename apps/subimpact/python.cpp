@@ -1,5 +1,3 @@
-#include "python.h"
-
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -126,39 +124,21 @@ int run_python(const std::string& module, const std::vector<std::string>& argume
   return cannot_run(python);
 }
 
-namespace {
-
-struct PythonCommand {
-  const char *name, *module, *description;
-};
-
-// Each takes its arguments, and prints its help, itself.
-constexpr PythonCommand python_commands[] = {
-    {"plot", "subimpact.plot", "Draw the figures of a run, a sweep or a study (SVG, PNG and PDF)"},
-    {"sensitivity", "subimpact.derivatives",
-     "Show how event times, forces and velocities depend on the numbers of a case"},
-    {"scatter", "subimpact.predictability",
-     "Show how far a strike can be predicted whose numbers scatter"}};
-
-CLI::App* add_passing_command(CLI::App& program, const char* name, const char* description) {
-  CLI::App* command = program.add_subcommand(name, description);
-  command->prefix_command();
-  return command;
-}
-
-}  // namespace
-
-void add_python(CLI::App& program, int& status) {
-  for (const auto& [name, module, description] : python_commands) {
-    CLI::App* command = add_passing_command(program, name, description);
-    command->set_help_flag();
-    command->footer(
-        fmt::format("Needs the Python package; subimpact {} --help has its options.", name));
-    command->callback([=, &status] { status = run_python(module, command->remaining()); });
-  }
-  CLI::App* command = add_passing_command(
-      program, "python", "Run Python where `import subimpact` finds the package of this program");
-  command->footer(
+std::vector<Command> python_commands() {
+  // Each takes its arguments, and prints its help, itself.
+  const auto of_package = [](const char* name, const char* module, const char* description) {
+    return Command{
+        name,
+        description,
+        {},
+        fmt::format("Needs the Python package; subimpact {} --help has its options.", name),
+        [=](const auto& rest) { return run_python(module, rest); },
+        true};
+  };
+  const Command python = {
+      "python",
+      "Run Python where `import subimpact` finds the package of this program",
+      {},
       "Its arguments are those of Python. The package is that of the build tree or of the "
       "installation of this program, else the one "
       "that Python has. SUBIMPACT_PYTHON_EXECUTABLE names another interpreter.\n"
@@ -166,15 +146,23 @@ void add_python(CLI::App& program, int& status) {
       "  subimpact python\n"
       "  subimpact python script.py\n"
       "  subimpact python -c 'import subimpact; print(subimpact.__version__)'\n"
-      "Exit status: that of Python; 2 without Python.");
-  command->callback([=, &status] {
-    const std::string python = interpreter();
-    std::vector<std::string> words = command->remaining();
-    words.insert(words.begin(), python);
-    std::vector<std::string> variables = environment_with(package_directory());
-    execvpe(python.c_str(), pointers_to(words).data(), pointers_to(variables).data());
-    status = cannot_run(python);
-  });
+      "Exit status: that of Python; 2 without Python.",
+      [](const auto& rest) {
+        const std::string name = interpreter();
+        std::vector<std::string> words = rest;
+        words.insert(words.begin(), name);
+        std::vector<std::string> variables = environment_with(package_directory());
+        execvpe(name.c_str(), pointers_to(words).data(), pointers_to(variables).data());
+        return cannot_run(name);
+      },
+      true};
+  return {of_package("plot", "subimpact.plot",
+                     "Draw the figures of a run, a sweep or a study (SVG, PNG and PDF)"),
+          of_package("sensitivity", "subimpact.derivatives",
+                     "Show how event times, forces and velocities depend on the numbers of a case"),
+          of_package("scatter", "subimpact.predictability",
+                     "Show how far a strike can be predicted whose numbers scatter"),
+          python};
 }
 
 }  // namespace subimpact::app

@@ -197,39 +197,46 @@ int run(RunOptions& options) {
   return status_of(result.outcome.kind);
 }
 
+std::vector<Option> options_of(RunOptions& options) {
+  options.input.may_repeat = true;
+  return options.input.of_case_and_method() +
+         std::vector<Option>{
+             of_directory(
+                 options.directory,
+                 "Directory for events.csv, transitions.csv, history.csv, shapes.csv, "
+                 "envelope.csv, "
+                 "summary.json, report.json, manifest.json and, where asked for, sections.csv and "
+                 "points.csv; made if missing. Default: the case file's name without its ending, "
+                 "and -results, in the current directory"),
+             options.input.of_within(),
+             options.input.of_opening(),
+             {"--error-bars{all}",
+              &options.error_bars,
+              "By default all errors are estimated from runs on three coarser meshes, which take "
+              "one and a half times as long as the run itself. --error-bars=off: no estimate. "
+              "--error-bars: from other runs for each of time, mesh and layers; takes about 4 "
+              "times as long. --error-bars=time: of the integration in time only, about twice as "
+              "long",
+              {},
+              {"all", "time", "off"}},
+             {"--body-errors",
+              &options.body_errors,
+              "off: no estimate of how far the body itself may be from the model",
+              {},
+              {"on", "off"}},
+             of_jobs(options.jobs),
+             {"--quiet", &options.quiet, "Print nothing but warnings and errors"},
+             {"--verbose", &options.verbose,
+              "Print mesh, method, errors by source, conservation and work too"},
+             {"--all", &options.all,
+              "Print every sub-impact, also those that are not certain one by one"}};
+}
+
 }  // namespace
 
-void add_run(CLI::App& program, int& status) {
-  auto [command, options] = add_command(program, status, "run", "Simulate a case", run);
-  options.input.add_to(command);
-  add_directory_option(
-      command, options.directory,
-      "Directory for events.csv, transitions.csv, history.csv, shapes.csv, envelope.csv, "
-      "summary.json, report.json, manifest.json and, where asked for, sections.csv and points.csv; "
-      "made if missing. Default: the case file's name without its ending, and -results, in the "
-      "current directory");
-  options.input.add_within_to(command);
-  options.input.add_opening_to(command);
-  options.input.may_repeat = true;
-  command
-      .add_flag("--error-bars{all}", options.error_bars,
-                "By default all errors are estimated from runs on three coarser meshes, which take "
-                "one and a half times as long as the run itself. --error-bars=off: no estimate. "
-                "--error-bars: "
-                "from other runs for each of time, mesh and layers; takes about 4 times as long. "
-                "--error-bars=time: of the integration in time only, about twice as long")
-      ->check(CLI::IsMember({"all", "time", "off"}));
-  command
-      .add_option("--body-errors", options.body_errors,
-                  "off: no estimate of how far the body itself may be from the model")
-      ->check(CLI::IsMember({"on", "off"}));
-  add_jobs_option(command, options.jobs);
-  command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
-  command.add_flag("--verbose", options.verbose,
-                   "Print mesh, method, errors by source, conservation and work too");
-  command.add_flag("--all", options.all,
-                   "Print every sub-impact, also those that are not certain one by one");
-  command.footer(
+Command run_command() {
+  return command_with(
+      "run", "Simulate a case", run, options_of,
       "Examples:\n"
       "  subimpact run case.toml\n"
       "  subimpact run case.toml --out out/tight --set solver.rtol=1e-10\n"

@@ -100,28 +100,33 @@ int run_stability(StabilityCommand& command) {
   });
 }
 
+std::vector<Option> options_of(StabilityCommand& options) {
+  return options.input.of_case() +
+         std::vector<Option>{
+             {"--methods", &options.methods,
+              "Only these methods, separated by commas; one without a table stands for all "
+              "its tables. Default: all"},
+             {"--parts",
+              &options.parts,
+              "Only these parts, separated by commas: map (right, wrong count, inaccurate, "
+              "unstable, refused, failed), pairs (sub-impacts within one step), layers (against "
+              "the exact section)",
+              {},
+              {"map", "pairs", "layers"}},
+             of_directory(options.directory,
+                          "Directory for CSV files; made if missing. Default: the case file's "
+                          "name without its ending, and -stability, in the current directory"),
+             of_seconds("--run-seconds", options.run_seconds,
+                        "Runs of the map that take longer are left out"),
+             of_jobs(options.jobs)};
+}
+
 }  // namespace
 
-void add_stability(CLI::App& program, int& status) {
-  auto [command, options] =
-      add_command(program, status, "stability",
-                  "Find where each method fails, and how; as tables and CSV", run_stability);
-  options.input.add_case_to(command);
-  add_list_option(command, "--methods", options.methods,
-                  "Only these methods, separated by commas; one without a table stands for all "
-                  "its tables. Default: all");
-  add_list_option(
-      command, "--parts", options.parts,
-      "Only these parts, separated by commas: map (right, wrong count, inaccurate, unstable, "
-      "refused, failed), pairs (sub-impacts within one step), layers (against the exact section)")
-      ->check(CLI::IsMember({"map", "pairs", "layers"}));
-  add_directory_option(command, options.directory,
-                       "Directory for CSV files; made if missing. Default: the case file's "
-                       "name without its ending, and -stability, in the current directory");
-  add_seconds_option(command, "--run-seconds", options.run_seconds,
-                     "Runs of the map that take longer are left out");
-  add_jobs_option(command, options.jobs);
-  command.footer(
+Command stability_command() {
+  return command_with(
+      "stability", "Find where each method fails, and how; as tables and CSV", run_stability,
+      options_of,
       "Parts are printed and written one by one; after Ctrl-C the finished parts remain.\n"
       "Examples:\n"
       "  subimpact stability case.toml --out out/stability; subimpact plot out/stability\n"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "case/keys/units.h"
 #include "case/shifted_case.h"
 #include "finished.h"
 #include "overseer.h"
@@ -17,6 +18,7 @@
 #include "simulate/settings/methods.h"
 #include "study/method_choice.h"
 #include "study/refinement/refinement.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/study/judgement/match.h"
 #include "subimpact/study/other_mesh.h"
@@ -130,6 +132,18 @@ std::optional<std::string> why_no_derivative(const LoadedCase& loaded, const std
   return why_not_shifted(loaded.value, key_of(key));
 }
 
+// A value of an axis, in the unit of its key. A stiffness has the unit of its law, which a sweep
+// may change: its unit is refused.
+py::object in_si(const std::string& name, py::handle value) {
+  const CaseKey& key = key_of(name);
+  KeyValue converted = key_value(key, value);
+  if (key.unit.find(" or ") == std::string::npos) converted = in_unit_of(key, std::move(converted));
+  if (const auto problem = problem_with(key, converted)) {
+    throw InvalidCase(key.name, key.name + ' ' + *problem);
+  }
+  return to_python(converted);
+}
+
 }  // namespace
 
 void bind_studies(py::module_& module) {
@@ -153,6 +167,7 @@ void bind_studies(py::module_& module) {
   module.def("velocity_scale",
              [](const Finished& run) { return run.input.scene.bodies().velocity_scale(); });
   module.def("rounded", &rounded);
+  module.def("in_si", &in_si);
   module.def("parsed_setting", [](const std::string& text) {
     const Override setting = parse_override(text);
     return std::tuple(setting.key, setting.value, setting.origin);

@@ -16,6 +16,7 @@ from typing import Any, Union
 
 import numpy as np
 
+from .. import _core
 from .._checks import is_positive, is_whole, seconds
 from .._errors import CaseError, PlanError
 from .._text import MOST_BYTES, is_unicode, read_at_most
@@ -130,7 +131,7 @@ class Plan:
                     if len(point) != len(keys):
                         raise CaseError(f"{key} changes together with others: every point of the axis needs {len(keys)} values, "
                                         f"and one has {len(point)}", key)
-                    point[k] = checked(key, point[k])
+                    point[k] = _core.in_si(key, checked(key, point[k]))
 
     def _first(self, key: str) -> Any:
         """The value about which a number scatters, at the first combination of the axes."""
