@@ -376,12 +376,12 @@ _EXAMPLES = """Each key takes four runs, two shifts to either side, at rtol 1e-1
 differences give the derivative, the mismatch of the shifts its error. Rows of contacts that are about to merge, to
 split or to vanish are flagged.
 
-examples:
+Examples:
   subimpact sensitivity case.toml
   subimpact sensitivity case.toml --by striker.velocity,beam.thickness --out out/by-two
   subimpact sensitivity case.toml --method nystrom --set time.end=2e-3
 
-exit status: 0 done; 2 bad command line or case file, or a key without a derivative; 3 a run failed; 128 and the
+Exit status: 0 done; 2 bad command line or case file, or a key without a derivative; 3 a run failed; 128 and the
 signal's number: stopped (130 by Ctrl-C), with the keys whose runs had ended."""
 
 

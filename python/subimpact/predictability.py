@@ -294,11 +294,11 @@ _EXAMPLES = """Standard deviations of starts and ends are by derivatives (subimp
 by one until it scatters by half of its duration or of a separation beside it. Numbers of the strike as a whole are
 those of 64 runs with sampled numbers.
 
-examples:
+Examples:
   subimpact new ensemble > case.toml && subimpact scatter case.toml
   subimpact scatter case.toml --set scatter.striker.velocity=0.01 --out out/scatter
 
-exit status: 0 done; 2 bad command line or case file, or a case in which nothing scatters; 3 a run failed; 128 and
+Exit status: 0 done; 2 bad command line or case file, or a case in which nothing scatters; 3 a run failed; 128 and
 the signal's number: stopped (130 by Ctrl-C)."""
 
 

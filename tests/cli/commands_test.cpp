@@ -18,8 +18,8 @@ using ScatterCommand = InADirectory;
 using SensitivityCommand = InADirectory;
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
-  for (const std::string command : {"run", "work-precision", "stability", "sensitivity", "plot",
-                                    "report", "explain", "methods", "keys", "columns"}) {
+  for (const std::string command : {"run", "work-precision", "stability", "sensitivity", "scatter",
+                                    "plot", "report", "explain", "methods", "keys", "columns"}) {
     expect_in(run_anywhere({command, "--help"}).output, "Example", "\n  subimpact " + command);
   }
 }

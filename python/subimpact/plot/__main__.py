@@ -20,12 +20,12 @@ _EXAMPLES = """Of a run: response, first-sub-impact, indentation, energies, time
 histograms. Of several runs: comparison. figures.json has their captions; `subimpact report` puts the figures of a run on
 its page.
 
-examples:
+Examples:
   subimpact run case.toml --out out/first --set output.sections=0.5,0.4
   subimpact plot out/first
   subimpact plot out/first --out figures --format pdf --only response,timeline
 
-exit status: 0 done; 2 bad command line, files that no run has written, or Python without what is needed; 3 a figure
+Exit status: 0 done; 2 bad command line, files that no run has written, or Python without what is needed; 3 a figure
 could not be drawn or written, the others are."""
 
 
