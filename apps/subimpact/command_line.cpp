@@ -82,9 +82,8 @@ CLI::Option* added(CLI::App& to, const Option& option) {
   if (option.name.ends_with('}')) {
     return to.add_flag(option.name, *std::get<std::string*>(option.value), option.meaning);
   }
-  return std::visit(
-      [&](auto* value) { return to.add_option(option.name, *value, option.meaning); },
-      option.value);
+  return std::visit([&](auto* value) { return to.add_option(option.name, *value, option.meaning); },
+                    option.value);
 }
 
 void add(CLI::App& to, const Option& option) {
@@ -194,8 +193,11 @@ int run_command_line(int argc, char** argv, const std::vector<Command>& commands
   program.require_subcommand(1);
   program.failure_message(usage_error);
   for (const Command& command : commands) add(program, status, command);
-  const Command manual = {"manual", "Print the manual page of all commands, for man", {},
-                          "Example:\n  subimpact manual | man -l -", [&](const auto&) -> int {
+  const Command manual = {"manual",
+                          "Print the manual page of all commands, for man",
+                          {},
+                          "Example:\n  subimpact manual | man -l -",
+                          [&](const auto&) -> int {
                             print_manual(program);
                             return done;
                           }};

@@ -20,9 +20,9 @@ struct Option {
   std::string meaning;
   /// Why a text is refused; empty: it is not.
   std::function<std::string(const std::string&)> refusal = {};
-  std::vector<std::string> choices = {};  ///< empty: any
-  std::vector<std::string> excludes = {}; ///< options beside which it is refused
-  std::string needs = {};                 ///< an option without which it is refused
+  std::vector<std::string> choices = {};          ///< empty: any
+  std::vector<std::string> excludes = {};         ///< options beside which it is refused
+  std::string needs = {};                         ///< an option without which it is refused
   bool is_required = false, is_repeated = false;  ///< a list: by one value at a time
 };
 

@@ -20,10 +20,6 @@ namespace {
 
 using Mesh = std::shared_ptr<const BeamMesh>;
 
-ElementGrading grading_of(const Case& input) {
-  return {input.model.strike_refinement, input.model.refined_length * input.scene.beam.length};
-}
-
 CellMesh::Spacing spacing_of(const Case& input) {
   using Spacing = CellMesh::Spacing;
   if (input.model.spacing == CellSpacing::points) return Spacing::points;
@@ -85,23 +81,13 @@ void check_cells(const Case& input) {
 void check_elements(const Case& input) {
   const int elements = input.model.elements;
   const double at = input.scene.striker.position;
-  const double length = input.scene.beam.length;
   if (strikes_end(input)) {
     if (!strikes_support(input)) return;
     refuse("striker.position",
            "is {}, on a support; allowed: strictly between the supports; move the strike inwards",
            at);
   }
-  const ElementGrading grading = grading_of(input);
-  const double before = grading.elements_within(at * length);
-  const double after = grading.elements_within((1.0 - at) * length);
-  if (elements * std::min(before, after) >= 0.5 * (before + after)) return;
-  if (grading.refinement != 1.0) {
-    refuse("striker.position",
-           "is {}, closer to an end than half an element, of {} graded towards the strike; move "
-           "the strike inwards or use more elements",
-           at, elements);
-  }
+  if (elements * std::min(at, 1.0 - at) >= 0.5) return;
   refuse_position(input, "closer to an end than half an element", elements, "elements",
                   has_end(input, EndSupport::free) ? ", or a free end itself" : "");
 }
@@ -149,9 +135,8 @@ Mesh make_cell_mesh(const Case& input) {
 
 Mesh make_hermite_mesh(const Case& input) {
   const bool has_hinges = input.model.hinges == HingeUse::automatic && may_yield(input);
-  return make_mesh<HermiteMesh>(
-      input, input.model.elements, static_cast<std::size_t>(input.model.sections_per_element),
-      extent_of<HermiteMesh>(input), HermiteMesh::Options{grading_of(input), has_hinges});
+  return make_mesh<HermiteMesh>(input, input.model.elements, extent_of<HermiteMesh>(input),
+                                has_hinges);
 }
 
 Mesh make_spectral_mesh(const Case& input) {
@@ -173,9 +158,7 @@ int order_of_elements(const Case& input) {
 }
 
 constexpr const char* keys_of_cells[] = {"model.segments", "model.spacing", "model.symmetry"};
-constexpr const char* keys_of_elements[] = {"model.elements",       "model.sections_per_element",
-                                            "model.hinges",         "model.strike_refinement",
-                                            "model.refined_length", "model.symmetry"};
+constexpr const char* keys_of_elements[] = {"model.elements", "model.hinges", "model.symmetry"};
 
 constexpr const char* keys_of_spectral[] = {"model.elements", "model.symmetry"};
 
@@ -232,12 +215,6 @@ const MeshDescriptor& descriptor_of(MeshKind kind) {
 }
 
 void check_spacing(const Case& input) {
-  if (!mesh_uses(input, "model.strike_refinement") && input.model.strike_refinement != 1.0) {
-    refuse("model.strike_refinement",
-           "is {:g}, but only elements can be shorter at the strike; allowed with this mesh: 1; "
-           "leave it out, or set model.mesh = \"hermite\"",
-           input.model.strike_refinement);
-  }
   if (!mesh_uses(input, "model.spacing") && input.model.spacing != CellSpacing::cells) {
     refuse("model.spacing",
            "is {}, but only cells have a spacing; allowed with this mesh: \"cells\"; leave it out, "

@@ -32,7 +32,7 @@ struct MeshDescriptor {
     const char* parts;         ///< "cells"
     int fewest;
     bool odd_in_half;  ///< whether a half model needs an odd count; else an even one
-    double (*size)(const Case& input);  ///< of a part, m; of graded ones the average
+    double (*size)(const Case& input);  ///< of a part, m
     /// Order in which times of events converge.
     int (*order)(const Case& input);
   };

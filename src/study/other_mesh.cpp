@@ -41,11 +41,7 @@ int mesh_count(const Case& input) {
 std::string mesh_words(const Case& input) {
   const auto refinement = refinement_of(input);
   if (!refinement) return input.parts.mesh ? "a mesh of its own" : "rigid";
-  std::string words = fmt::format("{} {}", mesh_count(input), refinement->parts);
-  if (input.model.strike_refinement != 1.0) {
-    words += fmt::format(", {:g} times as fine at the strike", input.model.strike_refinement);
-  }
-  return words;
+  return fmt::format("{} {}", mesh_count(input), refinement->parts);
 }
 
 std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {

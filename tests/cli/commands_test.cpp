@@ -146,8 +146,8 @@ TEST_F(ScatterCommand, WritesItsFilesAndPrintsHowFarTheStrikeCanBePredicted) {
   expect_in(run_in(directory,
                    of_paper("scatter", {"--set", "scatter.striker.velocity=0.01", "--out", "s"}))
                 .output,
-            "predictable: ", "times with their standard deviations", "zone 1", "force: 8",
-            "64 runs");
+            "predictable: ", "times with their standard deviations", "zone 1",
+            "force: 9230 +- 70 N", "64 runs");
   const auto summary = nlohmann::json::parse(directory.read("s/scatter.json"));
   // The first contact ends 1.654 us later for each unit of ln v.
   const double scatter = table_in(directory.path / "s/scatter.csv").at(0).number("end_scatter_s");

@@ -51,11 +51,8 @@ struct ModelOptions {
   MeshKind mesh = MeshKind::cells;
   int segments = 501;  ///< cells
   CellSpacing spacing = CellSpacing::cells;
-  int elements = 200;            ///< Hermite elements
-  int sections_per_element = 2;  ///< of Hermite elements
+  int elements = 200;  ///< Hermite elements
   HingeUse hinges = HingeUse::automatic;
-  double strike_refinement = 1.0;  ///< far elements' length over that of those at the strike
-  double refined_length = 0.05;    ///< either side of the strike, as a fraction of the length
   SectionKind section = SectionKind::exact;
   int layers = 40;
   SymmetryUse symmetry = SymmetryUse::automatic;

@@ -24,7 +24,7 @@ std::optional<RefinedRun> on_other_mesh(const Case& input, double factor);
 /// Number of cells or elements over the whole length; 1 for a rigid beam.
 int mesh_count(const Case& input);
 
-/// "501 cells", "200 elements, 4 times as fine at the strike"; "rigid", "a mesh of its own".
+/// "501 cells", "200 elements"; "rigid", "a mesh of its own".
 std::string mesh_words(const Case& input);
 
 }  // namespace subimpact

@@ -136,7 +136,6 @@ const Range segment_range = between(
     "mesh)",
     5, 100001);
 // Rounding of curvatures grows as the inverse square of an element's length.
-const Range refinement_range = between("from 1 (equal elements) to 1000", 1.0, 1000.0);
 const Range element_range = between("from 4 to 20000", 4, 20000);
 // At 10000 layers the stiffness is within 1e-8 of that of the exact section.
 const Range layer_range{"even, from 2 to 10000 (for more, section = \"exact\" is their limit)",
@@ -370,10 +369,7 @@ std::vector<CaseKey> make_case_keys() {
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
     row("model.spacing", "", any_value, "length of the cells, with mesh = \"cells\"", as_in_case, AT(model.spacing)),
     row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\" or \"spectral\"", as_in_case, AT(model.elements)),
-    row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points per element, where the bending law is evaluated", as_in_case, AT(model.sections_per_element)),
     row("model.hinges", "", any_value, "sections of elements where the slope may jump", as_in_case, AT(model.hinges)),
-    row("model.strike_refinement", "", refinement_range, "size of the elements far from the strike over the size of those at the strike, with mesh = \"hermite\"", as_in_case, AT(model.strike_refinement)),
-    row("model.refined_length", "", positive_share, "distance on either side of the strike over which elements grow to their full size, as a fraction of the beam's length", as_in_case, AT(model.refined_length)),
     row("model.section", "", any_value, "bending law of the sections", as_in_case, AT(model.section)),
     row("model.layers", "", layer_range, "number of layers over the thickness, with section = \"layers\"", as_in_case, AT(model.layers)),
     row("model.symmetry", "", any_value, "use of the scene's symmetry about mid-span", as_in_case, AT(model.symmetry)),

@@ -81,8 +81,6 @@ constexpr IdleKey idle_keys[] = {
     {"beam.damping.stiffness", "model.mesh", is_rigid},
     {"model.hinges", "model.section", has_elastic_sections},
     {"model.hinges", "beam.yield_stress", never_yields},
-    {"model.refined_length", "model.strike_refinement",
-     [](const Case& c) { return c.model.strike_refinement == 1.0; }},
     {"model.section", "model.mesh", is_rigid},
     {"model.section", "beam.yield_stress",
      [](const Case& c) { return never_yields(c) && !has_elastic_sections(c); }},

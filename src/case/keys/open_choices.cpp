@@ -15,9 +15,7 @@ bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
 OpenChoices open_choices(const GivenKeys& given) {
   OpenChoices open;
   open.size = !has_any(given, {"model.segments", "model.elements"});
-  open.mesh = open.size &&
-              !has_any(given, {"model.mesh", "model.spacing", "model.sections_per_element",
-                               "model.hinges", "model.strike_refinement", "model.refined_length"});
+  open.mesh = open.size && !has_any(given, {"model.mesh", "model.spacing", "model.hinges"});
   open.tolerance = !has_any(given, {"solver.rtol", "solver.step", "solver.max_step"});
   open.method =
       open.tolerance && !has_any(given, {"solver.method", "solver.table", "solver.max_order",

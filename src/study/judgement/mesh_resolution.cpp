@@ -23,10 +23,6 @@ double cells_of_a_part(const Case& input) {
   }
 }
 
-double refinement_at_strike(const Case& input) {
-  return input.model.mesh == MeshKind::hermite ? input.model.strike_refinement : 1.0;
-}
-
 // sqrt(E I/(rho A)), m2/s.
 double wave_constant(const Beam& beam) {
   return std::sqrt(beam.bending_stiffness() / beam.mass_per_length());
@@ -47,9 +43,7 @@ double distance_to_end(const Case& input) {
   return std::min(input.scene.striker.position, 1.0 - input.scene.striker.position);
 }
 
-double cells_over_length(const Case& input) {
-  return refinement_at_strike(input) * cells_of_a_part(input) * mesh_count(input);
-}
+double cells_over_length(const Case& input) { return cells_of_a_part(input) * mesh_count(input); }
 
 // The effective mass (kg) of the beam itself at a blow: with rotary inertia and without shear an
 // impulse at once moves the stretch e^(-|x|/r) about it, less or more by the reflection from the
@@ -72,7 +66,7 @@ double mass_of_mesh(const Case& input, const ResolvedSettings& used) {
 
 double parts_towards_end(const Case& input) {
   if (strikes_end(input)) return 0.0;
-  const double parts = fewest_cells_to_end / (refinement_at_strike(input) * cells_of_a_part(input));
+  const double parts = fewest_cells_to_end / cells_of_a_part(input);
   return std::max(parts, 1.0) / (coarsest_beside * distance_to_end(input));
 }
 
@@ -135,8 +129,7 @@ std::optional<Reason> unresolved_contact(const Case& input, const Result& result
   const auto& all = result.sub_impacts;
   const SubImpact& here = all[i];
   if (!here.end) {
-    const double needed =
-        parts_that_resolve(input, result.used.contact_time) / refinement_at_strike(input);
+    const double needed = parts_that_resolve(input, result.used.contact_time);
     if (mesh_count(input) >= needed) return {};
     return Reason{.kind = Reason::Kind::unended_contact,
                   .value = 1.0 * mesh_count(input),

@@ -150,21 +150,9 @@ TEST(HermiteElements, WithHingesResolveTheYieldingBeamOnAMeshThatServesTheElasti
   EXPECT_GT(end_us(simulate(input).sub_impacts.at(0)), 214.0);
 }
 
-TEST(HermiteElements, GradedTowardsTheStrikeConvergeAtSecondOrderWhereTheBeamYields) {
-  OrderTable table("first nine starts and ends, root of the sum of squares, us, over elements");
-  for (const int elements : {50, 100, 200}) {
-    Case input = hermite_case(SectionKind::exact, 0.8e-3, elements);
-    input.model.strike_refinement = 4.0;
-    const auto errors = errors_us(simulate(input), yielding_limit(), 9);
-    table.add(elements, root_of_squares(errors));
-  }
-  table.expect_every_order_within(1.5, 2.8);
-}
-
 // Whole models have two slopes at the hinge where half models have one.
-TEST(HermiteElements, GradedAndWithHingesAreTheSameInHalfAndWhole) {
+TEST(HermiteElements, WithHingesAreTheSameInHalfAndWhole) {
   Case input = hermite_case(SectionKind::exact, 0.25e-3, 30);
-  input.model.strike_refinement = 5.0;
   input.scene.beam.ends = {clamped, clamped};
   const Result half = simulate(input);
   input.model.symmetry = SymmetryUse::off;
@@ -230,21 +218,15 @@ TEST(HermiteElements, AgreeWithFineCellsOnEverySupport) {
 
 TEST(HermiteElements, AreRefusedWhereTheyDoNotFit) {
   const Case fits = hermite_case(SectionKind::elastic, 1e-4, 40);
-  const Settings graded{{"model.strike_refinement", 4.0}};
   const Settings odd{{"model.elements", 81}}, whole = odd + Settings{{"model.symmetry", "off"}};
   const Settings at_the_end = whole + Settings{{"striker.position", 0.0}};
   const std::pair<const char*, Settings> cases[] = {
       {"", {}},
-      {"", graded},
-      {"model.strike_refinement", graded + Settings{{"model.mesh", "cells"}}},
-      {"model.refined_length", graded + Settings{{"model.refined_length", 0.0}}},
-      {"model.strike_refinement", {{"model.strike_refinement", 0.5}}},
       {"model.elements", odd},
       {"", whole},
       {"striker.position", whole + Settings{{"striker.position", 0.003}}},
       {"", at_the_end},
-      {"striker.position", at_the_end + Settings{{"beam.ends", Names{"pinned", "free"}}}},
-      {"model.sections_per_element", {{"model.sections_per_element", 5}}}};
+      {"striker.position", at_the_end + Settings{{"beam.ends", Names{"pinned", "free"}}}}};
   for (const auto& [key, settings] : cases) {
     EXPECT_EQ(refusal_of(changed(fits, settings)).key, key);
   }

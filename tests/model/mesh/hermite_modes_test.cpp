@@ -85,7 +85,7 @@ TEST_P(ModesOfElements, BendWithTheEnergyOfTheirFrequency) {
 TEST(DenseModes, OfAFineMeshMixNoLowModes) {
   const Beam beam = paper_beam(BeamTheory::rayleigh, {free_end, pinned});
   const std::size_t n = 300;
-  const HermiteMesh mesh(beam, 1.0 / static_cast<double>(n), n, 2, Extent::whole);
+  const HermiteMesh mesh(beam, 1.0 / static_cast<double>(n), n, Extent::whole);
   const NaturalModes closed = mesh.natural_modes(beam.bending_stiffness());
   const NaturalModes dense = dense_natural_modes(mesh, beam.bending_stiffness());
   std::vector<double> inertia(mesh.n_unknowns());
@@ -139,11 +139,11 @@ TEST_P(ModesOfElements, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
 
 TEST(HermiteModes, OfUnequalElementsAndOfACantileverAreDecomposed) {
   Beam beam = paper_beam();
-  const HermiteMesh unequal(beam, 0.33, 10, 2, Extent::whole);
+  const HermiteMesh unequal(beam, 0.33, 10, Extent::whole);
   EXPECT_EQ(unequal.natural_modes(beam.bending_stiffness()).frequencies,
             dense_natural_modes(unequal, beam.bending_stiffness()).frequencies);
   beam.ends = {clamped, free_end};
-  const HermiteMesh cantilever(beam, 0.5, 10, 2, Extent::whole);
+  const HermiteMesh cantilever(beam, 0.5, 10, Extent::whole);
   EXPECT_EQ(cantilever.natural_modes(beam.bending_stiffness()).frequencies,
             dense_natural_modes(cantilever, beam.bending_stiffness()).frequencies);
 }
@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Half, ModesOfElements,
 // A frequency far below the highest is not that of a rigid mode: hinges add ten times higher ones.
 TEST(ACantileverOfManyElementsAndHinges, VibratesInItsLowestMode) {
   const Beam beam = paper_beam(BeamTheory::euler_bernoulli, {clamped, free_end});
-  const HermiteMesh mesh(beam, 0.44, 560, 2, Extent::whole, {{}, true});
+  const HermiteMesh mesh(beam, 0.44, 560, Extent::whole, true);
   const NaturalModes modes = mesh.natural_modes(beam.bending_stiffness());
   EXPECT_LT(modes.frequencies.front(), 1e-7 * modes.frequencies.back());
   EXPECT_NEAR(modes.frequencies.front(), flexural_frequencies(beam, 1).front(),

@@ -83,25 +83,21 @@ TEST(StatedErrorsOfTimeAndMesh, CoverTheTrueOnesWithoutBeingVain) {
   coverage.expect(80, 8.0);
 }
 
-// On elements with hinges, refined runs have hinges and grading, too. Meshes of hinged elements
+// On elements with hinges, refined runs have hinges, too. Meshes of hinged elements
 // converge unevenly, so that errors from coarser ones are wide.
 TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
   Coverage coverage;
-  for (const double refinement : {1.0, 4.0}) {
-    for (const int elements : {120, 200}) {
-      Case input = on_elements(scene(SectionKind::exact, 0.84e-3), elements);
-      input.model.strike_refinement = refinement;
-      const Result result = judged_by_part(input);
-      const auto& here = result.sub_impacts;
-      for (std::size_t i = 0; i < std::min<std::size_t>(here.size(), 9); ++i) {
-        if (!*here[i].certain) continue;
-        const auto [start, end] = yielding_limit_us[i];
-        if (i > 0)
-          coverage.judge(1e6 * *here[i].start_error, std::abs(1e6 * here[i].start - start));
-        coverage.judge(1e6 * *here[i].end_error, std::abs(1e6 * *here[i].end - end));
-      }
-      expect_in(result.error_estimate->refined_run, "elements");
+  for (const int elements : {120, 160, 200, 240}) {
+    const Case input = on_elements(scene(SectionKind::exact, 0.84e-3), elements);
+    const Result result = judged_by_part(input);
+    const auto& here = result.sub_impacts;
+    for (std::size_t i = 0; i < std::min<std::size_t>(here.size(), 9); ++i) {
+      if (!*here[i].certain) continue;
+      const auto [start, end] = yielding_limit_us[i];
+      if (i > 0) coverage.judge(1e6 * *here[i].start_error, std::abs(1e6 * here[i].start - start));
+      coverage.judge(1e6 * *here[i].end_error, std::abs(1e6 * *here[i].end - end));
     }
+    expect_in(result.error_estimate->refined_run, "elements");
   }
   coverage.expect(30, 16.0);
 }
@@ -160,9 +156,6 @@ TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
   EXPECT_EQ(mesh_order(input), 4);
   input.model.section = SectionKind::exact;
   EXPECT_EQ(mesh_order(input), 2);
-  input.model.strike_refinement = 4.0;
-  EXPECT_EQ(on_other_mesh(input, 2.0)->input.model.strike_refinement, 4.0);
-  EXPECT_EQ(on_other_mesh(input, 2.0)->input.model.refined_length, input.model.refined_length);
   input.model.hinges = HingeUse::off;
   EXPECT_EQ(mesh_order(input), 1);
   input.model.elements = 4;
@@ -206,9 +199,7 @@ Case strip(const ModelOptions& model) {
 }
 
 Case strip_of_cells(int n) { return strip({.segments = n}); }
-Case strip_of_elements(int n, double refinement = 1.0) {
-  return strip({.mesh = MeshKind::hermite, .elements = n, .strike_refinement = refinement});
-}
+Case strip_of_elements(int n) { return strip({.mesh = MeshKind::hermite, .elements = n}); }
 
 void expect_nothing_is_certain(const Result& result) {
   ASSERT_TRUE(result.error_estimate);
@@ -237,7 +228,6 @@ TEST(TheShortestContactThatAMeshShows, FallsWithTheSquareOfItsParts) {
   EXPECT_NEAR(shortest_contact_shown(strip_of_cells(303)), of_cells / 9.0, rounding);
   // Elements count as two cells.
   EXPECT_NEAR(shortest_contact_shown(strip_of_elements(202)), of_cells / 16.0, rounding);
-  EXPECT_NEAR(shortest_contact_shown(strip_of_elements(202, 2.0)), of_cells / 64.0, rounding);
   EXPECT_EQ(shortest_contact_shown(strip({.mesh = MeshKind::rigid})), 0.0);
 }
 

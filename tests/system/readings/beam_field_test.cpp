@@ -44,9 +44,7 @@ std::shared_ptr<const BeamMesh> make_mesh(Kind kind, const Beam& beam, double po
   if (kind == Kind::cells) return std::make_shared<CellMesh>(beam, position, n, extent);
   if (kind == Kind::timoshenko) return std::make_shared<TimoshenkoMesh>(beam, position, n, extent);
   if (kind == Kind::spectral) return std::make_shared<SpectralMesh>(beam, position, n, extent);
-  HermiteMesh::Options options;
-  options.hinges = kind == Kind::hinged;
-  return std::make_shared<HermiteMesh>(beam, position, n, 2, extent, options);
+  return std::make_shared<HermiteMesh>(beam, position, n, extent, kind == Kind::hinged);
 }
 
 class Meshes : public testing::TestWithParam<std::tuple<Kind, Ends>> {};

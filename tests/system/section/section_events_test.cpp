@@ -176,7 +176,7 @@ std::vector<Mesh> meshes() {
     const std::string of = theory == BeamTheory::rayleigh ? "Rayleigh's " : "Euler's ";
     add(of + "half of cells", CellMesh(beam, 0.5, 201, Extent::half));
     add(of + "cells, struck off centre", CellMesh(beam, 0.317, 60, Extent::whole));
-    add(of + "half of elements", HermiteMesh(beam, 0.5, 40, 2, Extent::half));
+    add(of + "half of elements", HermiteMesh(beam, 0.5, 40, Extent::half));
   }
   Beam shearing = paper_beam(BeamTheory::timoshenko);
   shearing.poisson = 0.33;

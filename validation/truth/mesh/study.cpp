@@ -1,5 +1,5 @@
 // What the mesh costs and what it leaves wrong: cells and Hermite elements on the paper's example,
-// elastic and yielding, elements with and without hinges and graded. Writes convergence.csv,
+// elastic and yielding, elements with and without hinges. Writes convergence.csv,
 // limits.csv and the figure beside this file.
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ constexpr double us = 1e6;
 constexpr double horizon = 0.84e-3;  // s: sub-impacts 1 to 9 of the elastic beam
 
 // Kinds of meshes side by side.
-enum class Kind { cells, without_hinges, elements, graded };
+enum class Kind { cells, without_hinges, elements };
 
 struct KindName {
   Kind kind;
@@ -37,9 +37,7 @@ constexpr KindName kinds[] = {
     {Kind::cells, "cells"},
     {Kind::without_hinges, "without_hinges"},
     {Kind::elements, "elements"},
-    {Kind::graded, "graded"},
 };
-constexpr double refinement = 4.0;  // of graded elements, over the default length
 
 const char* name_of(Kind kind) {
   for (const KindName& k : kinds) {
@@ -62,7 +60,6 @@ Case example(Kind kind, int count, SectionKind section, double end_time) {
   input.model.mesh = kind == Kind::cells ? MeshKind::cells : MeshKind::hermite;
   (kind == Kind::cells ? input.model.segments : input.model.elements) = count;
   if (kind == Kind::without_hinges) input.model.hinges = HingeUse::off;
-  if (kind == Kind::graded) input.model.strike_refinement = refinement;
   input.model.section = section;
   input.solver.method = Method::nystrom;
   input.solver.rtol = 1e-9;
@@ -100,7 +97,7 @@ std::vector<Point> converge(SectionKind section, const std::vector<SubImpact>& l
   };
   for (const int n : {251, 501, 1001, 1415, 2001, 2829}) add(Kind::cells, n);
   const bool elastic = section == SectionKind::elastic;
-  for (const Kind kind : {Kind::without_hinges, Kind::elements, Kind::graded}) {
+  for (const Kind kind : {Kind::without_hinges, Kind::elements}) {
     if (elastic && kind == Kind::without_hinges) continue;  // there are none
     for (const int n : {70, 100, 140, 200, 280, 400, 566, 800}) {
       if (elastic && n > 400) break;  // the limit's own error shows
@@ -205,7 +202,7 @@ void write_limits(const std::string& directory, const std::vector<Result>& on_ce
   std::ofstream csv(directory + "/limits.csv");
   std::string head = "quantity";
   for (const int n : limit_cells) head += fmt::format(",cells_{}_us", n);
-  for (const int n : limit_elements) head += fmt::format(",graded_elements_{}_us", n);
+  for (const int n : limit_elements) head += fmt::format(",elements_{}_us", n);
   csv << head << ",limit_us,uncertainty_us\n";
   fmt::print("\nyielding example (section exact), us: cells, elements, limit\n");
   for (const Quantity& quantity : quantities) {
@@ -274,6 +271,6 @@ int main() {
   points.insert(points.end(), yielding.begin(), yielding.end());
   write_points(directory, points);
   auto on_cells = run_all(Kind::cells, limit_cells);
-  auto on_elements = run_all(Kind::graded, limit_elements);
+  auto on_elements = run_all(Kind::elements, limit_elements);
   write_limits(directory, on_cells.get(), on_elements.get());
 }

@@ -19,14 +19,6 @@ double unknowns(const Case& input) {
   return half ? 0.5 * n : n;
 }
 
-double smallest_element(const Case& input) {
-  const double refinement = input.model.strike_refinement;
-  // Elements near the strike take more of the count the longer the refined part is.
-  const double share = std::min(1.0, 2.0 * input.model.refined_length);
-  const double more = 1.0 + share * std::log(refinement) * refinement / (refinement + 1.0);
-  return input.scene.beam.length / input.model.elements / refinement * more;
-}
-
 const MethodTable* table_of(const SolverOptions& solver) {
   for (const MethodTable& table : method_tables()) {
     if (table.method == solver.method && (!solver.table || table.name == *solver.table)) {
@@ -122,7 +114,7 @@ double highest_frequency(const Case& input) {
     const double x = 2.0 * r / dx;
     return 4.0 * c * r / (dx * dx) / std::sqrt(1.0 + (rotary ? x * x : 0.0));
   }
-  const double a = smallest_element(input);
+  const double a = input.scene.beam.length / input.model.elements;
   const double x = 11.8 * r / a;
   const bool hinged = may_yield(input) && input.model.hinges == HingeUse::automatic;
   return (hinged ? 2.0 : 1.0) * 91.7 * c * r / (a * a) / std::sqrt(1.0 + (rotary ? x * x : 0.0));

@@ -62,12 +62,7 @@ void draw_mesh(Random& random, Case& input) {
   } else if (kind < 0.96) {
     model.mesh = MeshKind::hermite;
     model.elements = parity(static_cast<int>(random.log_uniform(4.0, 100.0)), false);
-    model.sections_per_element = 2 + static_cast<int>(random.index(3));
     if (random.chance(0.3)) model.hinges = HingeUse::off;
-    if (random.chance(0.4)) {
-      model.strike_refinement = random.log_uniform(1.0, 20.0);
-      model.refined_length = random.log_uniform(0.01, 1.0);
-    }
   } else {
     model.mesh = MeshKind::rigid;
     input.scene.beam.ends = {EndSupport::free, EndSupport::free};

@@ -14,19 +14,6 @@ namespace {
 
 using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
-// In eta = 2 s - 1, from the points up to the middle, which have the most digits.
-template <std::size_t n>
-ElementRule gauss_in_eta() {
-  ElementRule rule;
-  for (std::size_t i = 0; i < n; ++i) {
-    rule.points.push_back(2 * i < n ? 2.0 * gauss<n>.points[i] - 1.0
-                                    : 1.0 - 2.0 * gauss<n>.points[n - 1 - i]);
-    rule.weights.push_back(gauss<n>.weights[i]);
-    rule.of_curvature.push_back({1.0, rule.points.back()});
-  }
-  return rule;
-}
-
 // Two points and weights at distances x (shares of the element) from a hinge that, with the hinge's
 // own weight at 0, integrate 1, x and x^2.
 struct Pair {
@@ -53,17 +40,9 @@ Pair pair_beside_hinge() {
 
 }  // namespace
 
-ElementRule gauss_rule(std::size_t n) {
-  switch (n) {
-    case 2:
-      return gauss_in_eta<2>();
-    case 3:
-      return gauss_in_eta<3>();
-    case 4:
-      return gauss_in_eta<4>();
-    default:
-      throw std::invalid_argument("hermite mesh: 2, 3 or 4 sections per element");
-  }
+ElementRule gauss_rule() {
+  const double eta = 2.0 * gauss<2>.points[0] - 1.0;
+  return {{eta, -eta}, {0.5, 0.5}, {{1.0, eta}, {1.0, -eta}}};
 }
 
 ElementRule rule_beside_hinges(bool at_start, bool at_end) {
@@ -168,24 +147,9 @@ double HermiteElement::highest_frequency_squared(const ElementRule& rule,
   return largest_eigenvalue(stiffness, Eigen::Map<const Matrix4>(mass[0].data()));
 }
 
-double ElementGrading::elements_within(double d) const {
-  if (refinement == 1.0) return d;
-  const double growth = (1.0 - 1.0 / refinement) / refined_length;  // of the size, a metre
-  if (d <= refined_length) return std::log1p(growth * refinement * d) / growth;
-  return std::log(refinement) / growth + (d - refined_length);
-}
-
-double ElementGrading::distance_of(double elements) const {
-  if (refinement == 1.0) return elements;
-  const double growth = (1.0 - 1.0 / refinement) / refined_length;
-  const double within_refined = std::log(refinement) / growth;
-  if (elements <= within_refined) return std::expm1(growth * elements) / (growth * refinement);
-  return refined_length + (elements - within_refined);
-}
-
 HermiteNodes::HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool is_half,
-                           const Options& chosen)
-    : options(chosen), half(is_half), ends(beam.ends) {
+                           bool has_hinges)
+    : half(is_half), hinges(has_hinges), ends(beam.ends) {
   if (n_elements < fewest_elements) {
     throw std::invalid_argument("hermite mesh: at least 4 elements are needed");
   }
@@ -202,10 +166,7 @@ HermiteNodes::HermiteNodes(const Beam& beam, double position, std::size_t n_elem
   }
 }
 
-// Left and right of the strike, nodes are equidistant in elements_within.
-void HermiteNodes::place(double left_length, double right_length, std::size_t n_elements) {
-  const double left = options.grading.elements_within(left_length);
-  const double right = options.grading.elements_within(right_length);
+void HermiteNodes::place(double left, double right, std::size_t n_elements) {
   struck = n_elements;
   if (!half) {
     struck = static_cast<std::size_t>(
@@ -213,29 +174,12 @@ void HermiteNodes::place(double left_length, double right_length, std::size_t n_
     if (left > 0.0) struck = std::max<std::size_t>(struck, 1);
     if (right > 0.0) struck = std::min(struck, n_elements - 1);
   }
-  lengths = lengths_of_side(struck, left_length, left);
-  std::reverse(lengths.begin(), lengths.end());
-  const auto after = lengths_of_side(n_elements - struck, right_length, right);
-  lengths.insert(lengths.end(), after.begin(), after.end());
-}
-
-// From the strike outwards.
-std::vector<double> HermiteNodes::lengths_of_side(std::size_t count, double length,
-                                                  double within) const {
-  std::vector<double> side(count, length / static_cast<double>(count));
-  if (options.grading.refinement == 1.0) return side;
-  double before = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i + 1) / static_cast<double>(count);
-    const double d = i + 1 == count ? length : options.grading.distance_of(within * share);
-    side[i] = d - before;
-    before = d;
-  }
-  return side;
+  lengths.assign(struck, left / static_cast<double>(struck));
+  lengths.resize(n_elements, right / static_cast<double>(n_elements - struck));
 }
 
 bool HermiteNodes::is_hinge(std::size_t node) const {
-  if (!options.hinges) return false;
+  if (!hinges) return false;
   const bool mirror = half && node == n_elements();
   if (mirror || (node > 0 && node < n_elements())) return node == struck;
   return ends[node == 0 ? 0 : 1] == EndSupport::clamped;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -15,13 +14,14 @@ namespace subimpact {
 constexpr std::size_t most_in_modes = 2000;  // shapes take n^2 numbers
 constexpr double bound_tolerance = 1e-5;     // of the highest squared frequency
 
-HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elements,
-                         std::size_t sections_per_element, Extent extent, const Options& options)
-    : HermiteMesh(beam, position, sections_per_element,
-                  HermiteNodes(beam, position, n_elements, extent == Extent::half, options)) {}
+constexpr std::size_t points = 2;  // of an element
 
-HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t sections_per_element,
-                         HermiteNodes nodes)
+HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent,
+                         bool hinges)
+    : HermiteMesh(beam, position,
+                  HermiteNodes(beam, position, n_elements, extent == Extent::half, hinges)) {}
+
+HermiteMesh::HermiteMesh(const Beam& beam, double position, HermiteNodes nodes)
     : BeamMesh(nodes.n_unknowns, 3, nodes.half),
       nodes_(std::move(nodes)),
       slope_unit_(beam.length / static_cast<double>(nodes_.n_elements_whole())),
@@ -36,7 +36,7 @@ HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t sections
   }
   assemble_mass();
   if (!symmetric()) assemble_moment();
-  gather_elements(sections_per_element);
+  gather_elements();
   struck_section_ = nearest_section(position * beam.length);
 }
 
@@ -70,8 +70,7 @@ void HermiteMesh::assemble_moment() {
   }
 }
 
-void HermiteMesh::gather_elements(std::size_t sections_per_element) {
-  gauss_ = gauss_rule(sections_per_element);
+void HermiteMesh::gather_elements() {
   double left = 0.0;
   if (nodes_.is_hinge(0)) place_hinge(0, 0.0);
   for (std::size_t e = 0; e < nodes_.n_elements(); ++e) {
@@ -137,7 +136,6 @@ void HermiteMesh::add_row(std::span<const std::size_t> unknowns,
   add_stencil(first, std::span(row).first(size));
 }
 
-template <std::size_t points>
 void HermiteMesh::curvatures_in_runs(const double* unknowns, double* kappa) const {
   double eta[points];
   std::copy_n(gauss_.points.data(), points, eta);
@@ -169,18 +167,10 @@ void HermiteMesh::curvatures(std::span<const double> unknowns, std::span<double>
   for (const Hinge& hinge : hinges_) {
     kappa[hinge.section] = hinge.inverse * (value(hinge.slope_after) - value(hinge.slope_before));
   }
-  switch (gauss_.size()) {
-    case 2:
-      return curvatures_in_runs<2>(unknowns.data(), kappa.data());
-    case 3:
-      return curvatures_in_runs<3>(unknowns.data(), kappa.data());
-    default:
-      return curvatures_in_runs<4>(unknowns.data(), kappa.data());
-  }
+  curvatures_in_runs(unknowns.data(), kappa.data());
 }
 
 // Adds -B^T W moments; within a run every force is written once.
-template <std::size_t points>
 void HermiteMesh::bending_forces_in_runs(const double* moments, double* forces) const {
   double eta[points];
   double weight[points];
@@ -238,14 +228,7 @@ void HermiteMesh::bending_forces(std::span<const double> moments, std::span<doub
     if (hinge.slope_before != none) forces[hinge.slope_before] += couple;
     if (hinge.slope_after != none) forces[hinge.slope_after] -= couple;
   }
-  switch (gauss_.size()) {
-    case 2:
-      return bending_forces_in_runs<2>(moments.data(), forces.data());
-    case 3:
-      return bending_forces_in_runs<3>(moments.data(), forces.data());
-    default:
-      return bending_forces_in_runs<4>(moments.data(), forces.data());
-  }
+  bending_forces_in_runs(moments.data(), forces.data());
 }
 
 SparseFunctional HermiteMesh::of_element(std::size_t element,
@@ -350,15 +333,7 @@ NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
 }
 
 std::string HermiteMesh::description() const {
-  std::string text = std::to_string(nodes_.n_elements_whole()) + " Hermite elements of " +
-                     std::to_string(gauss_.size()) + " sections";
-  if (nodes_.options.grading.refinement != 1.0) {
-    const auto [shortest, longest] = std::ranges::minmax(nodes_.lengths);
-    char range[64];
-    std::snprintf(range, sizeof range, ", from %.4g to %.4g mm long", 1e3 * shortest,
-                  1e3 * longest);
-    text += range;
-  }
+  std::string text = std::to_string(nodes_.n_elements_whole()) + " Hermite elements of 2 sections";
   if (!hinges_.empty()) {
     const std::size_t n = symmetric() ? 2 * hinges_.size() - 1 : hinges_.size();
     text += n == 1 ? ", one hinge" : ", " + std::to_string(n) + " hinges";

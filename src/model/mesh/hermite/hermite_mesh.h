@@ -10,7 +10,7 @@
 namespace subimpact {
 
 /// Cubic Hermite elements: displacement and slope at the nodes, fourth order in their length,
-/// 2 to 4 Gauss points per element as sections (docs/theory.md, "Hermite elements").
+/// 2 Gauss points per element as sections (docs/theory.md, "Hermite elements").
 ///
 /// Unknowns, node by node (HermiteNodes): w and h t, both in m, with h = l/n. At a node with a
 /// hinge, whose section is taken from the elements next to it (rule_beside_hinges): h t_-, w, h
@@ -19,13 +19,10 @@ class HermiteMesh final : public BeamMesh {
  public:
   static constexpr std::size_t fewest_elements = HermiteNodes::fewest_elements;
 
-  using Options = HermiteNodes::Options;
-
   /// `position` is the struck point as a fraction of the length, `n_elements` counts those of the
-  /// whole beam. Throws std::invalid_argument for other than 2, 3 or 4 sections per element, and
-  /// as HermiteNodes does.
-  HermiteMesh(const Beam& beam, double position, std::size_t n_elements,
-              std::size_t sections_per_element, Extent extent, const Options& options = {});
+  /// whole beam. Throws std::invalid_argument as HermiteNodes does.
+  HermiteMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent,
+              bool hinges = false);
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
@@ -41,8 +38,6 @@ class HermiteMesh final : public BeamMesh {
   /// True if the modes have the closed form, up to 2000 unknowns.
   bool prefers_modes() const override;
   std::string description() const override;
-
-  std::span<const double> element_lengths() const { return nodes_.lengths; }
 
  private:
   static constexpr std::size_t none = HermiteNodes::none;
@@ -66,12 +61,11 @@ class HermiteMesh final : public BeamMesh {
     double inverse;                         // 1/(L h), L of the part modelled, 1/m2
   };
 
-  HermiteMesh(const Beam& beam, double position, std::size_t sections_per_element,
-              HermiteNodes nodes);
+  HermiteMesh(const Beam& beam, double position, HermiteNodes nodes);
 
   HermiteElement element(std::size_t e) const;
   bool is_chain() const;
-  void gather_elements(std::size_t sections_per_element);
+  void gather_elements();
   void place_element(std::size_t e, double left, const ElementRule& rule);
   void place_hinge(std::size_t node, double x);
   void add_row(std::span<const std::size_t> unknowns, std::span<const double> coefficients);
@@ -80,16 +74,14 @@ class HermiteMesh final : public BeamMesh {
   void assemble_moment();
   SparseFunctional of_element(std::size_t element,
                               const HermiteElement::Coefficients& coefficients) const;
-  template <std::size_t points>
   void curvatures_in_runs(const double* unknowns, double* kappa) const;
-  template <std::size_t points>
   void bending_forces_in_runs(const double* moments, double* forces) const;
 
   HermiteNodes nodes_;
   double slope_unit_;  // h, m
   double mass_per_length_;
   double rotary_inertia_;
-  ElementRule gauss_;
+  ElementRule gauss_ = gauss_rule();
   std::vector<Run> runs_;
   std::vector<Single> singles_;
   std::vector<Hinge> hinges_;
