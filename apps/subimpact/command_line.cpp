@@ -79,8 +79,9 @@ CLI::Option* added(CLI::App& to, const Option& option) {
   if (const auto* flag = std::get_if<bool*>(&option.value)) {
     return to.add_flag(option.name, **flag, option.meaning);
   }
-  if (option.name.ends_with('}')) {
-    return to.add_flag(option.name, *std::get<std::string*>(option.value), option.meaning);
+  if (!option.if_bare.empty()) {
+    return to.add_flag(option.name + '{' + option.if_bare + '}',
+                       *std::get<std::string*>(option.value), option.meaning);
   }
   return std::visit([&](auto* value) { return to.add_option(option.name, *value, option.meaning); },
                     option.value);
@@ -91,9 +92,10 @@ void add(CLI::App& to, const Option& option) {
   if (option.refusal) made->check(option.refusal);
   if (!option.choices.empty()) made->check(CLI::IsMember(option.choices));
   if (option.is_required) made->required();
-  if (option.is_repeated) made->allow_extra_args(false);
-  const bool is_list = std::holds_alternative<std::vector<std::string>*>(option.value);
-  if (is_list && !option.is_repeated && option.name.starts_with('-')) made->delimiter(',');
+  if (std::holds_alternative<std::vector<std::string>*>(option.value)) {
+    if (option.list == Option::List::by_commas) made->delimiter(',');
+    if (option.list == Option::List::one_by_one) made->allow_extra_args(false);
+  }
   if (std::holds_alternative<double*>(option.value)) made->capture_default_str();
   if (!option.needs.empty()) made->needs(to.get_option(option.needs));
   for (const std::string& other : option.excludes) made->excludes(to.get_option(other));
@@ -103,10 +105,8 @@ void add(CLI::App& program, int& status, const Command& command) {
   CLI::App* made = program.add_subcommand(command.name, command.description);
   for (const Option& option : command.options) add(*made, option);
   made->footer(command.footer);
-  if (command.takes_rest) {
-    made->prefix_command();
-    made->set_help_flag();
-  }
+  if (command.takes_rest) made->prefix_command();
+  if (command.has_own_help) made->set_help_flag();
   made->callback([&command, &status, made] {
     try {
       status = command.run(command.takes_rest ? made->remaining() : std::vector<std::string>());

@@ -14,16 +14,23 @@ namespace subimpact::app {
 
 /// An option, or an argument by its place: of a name without dashes.
 struct Option {
-  std::string name;  ///< "--out", "CASE"; "--error-bars{all}": with this value if none is given
-  /// Where the value goes: a list is separated by commas.
+  /// How the values of a list are given.
+  enum class List { by_commas, one_by_one, all_that_follow };
+
+  std::string name;  ///< "--out", "CASE"
+  /// Where the value goes.
   std::variant<std::string*, std::vector<std::string>*, double*, unsigned*, bool*> value;
   std::string meaning;
   /// Why a text is refused; empty: it is not.
   std::function<std::string(const std::string&)> refusal = {};
-  std::vector<std::string> choices = {};          ///< empty: any
-  std::vector<std::string> excludes = {};         ///< options beside which it is refused
-  std::string needs = {};                         ///< an option without which it is refused
-  bool is_required = false, is_repeated = false;  ///< a list: by one value at a time
+  std::vector<std::string> choices = {};   ///< empty: any
+  std::vector<std::string> excludes = {};  ///< options beside which it is refused
+  std::string needs = {};                  ///< an option without which it is refused
+  List list = List::by_commas;
+  bool is_required = false;
+  std::string if_bare = {};  ///< the value if none is given; empty: one is needed
+};                           ///< an option without which it is refused
+bool is_required = false, is_repeated = false;  ///< a list: by one value at a time
 };
 
 struct Command {
@@ -32,7 +39,8 @@ struct Command {
   std::string footer;
   /// Returns the exit status. `rest`: the words that the command takes as they are.
   std::function<int(const std::vector<std::string>& rest)> run;
-  bool takes_rest = false;  ///< all words after its name, `--help` too
+  bool takes_rest = false;    ///< all words after its name
+  bool has_own_help = false;  ///< `--help` is one of them
 };
 
 /// A command whose options are held as long as it is. `options_of` lists them with their places.

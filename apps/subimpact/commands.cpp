@@ -82,7 +82,7 @@ std::vector<Option> CaseOptions::of_case() {
       "--set", &settings,
       "table.key=value, instead of the value in the case file; table.key=default: as if the "
       "file did not have the key (but for a title); may be repeated: the last one holds"};
-  set.is_repeated = true;
+  set.list = Option::List::one_by_one;
   Option of_file = {"CASE", &file, "Case file (TOML); `subimpact keys` lists its keys"};
   of_file.is_required = true;
   return {of_file, set};

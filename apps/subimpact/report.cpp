@@ -100,6 +100,7 @@ std::vector<Option> options_of(FinishedRunOptions& options) {
                  "Output directory of `subimpact run`, or of subimpact-sweep; several of runs: "
                  "they are compared"};
   runs.is_required = true;
+  runs.list = Option::List::all_that_follow;
   std::vector<Option> list = {
       runs,
       of_directory(options.directory,

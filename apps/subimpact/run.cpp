@@ -199,6 +199,14 @@ int run(RunOptions& options) {
 
 std::vector<Option> options_of(RunOptions& options) {
   options.input.may_repeat = true;
+  Option error_bars = {
+      "--error-bars", &options.error_bars,
+      "By default all errors are estimated from runs on three coarser meshes, which take "
+      "one and a half times as long as the run itself. --error-bars=off: no estimate. "
+      "--error-bars: from other runs for each of time, mesh and layers; takes about 4 "
+      "times as long. --error-bars=time: of the integration in time only, about twice as long"};
+  error_bars.choices = {"all", "time", "off"};
+  error_bars.if_bare = "all";
   return options.input.of_case_and_method() +
          std::vector<Option>{
              of_directory(
@@ -210,15 +218,7 @@ std::vector<Option> options_of(RunOptions& options) {
                  "and -results, in the current directory"),
              options.input.of_within(),
              options.input.of_opening(),
-             {"--error-bars{all}",
-              &options.error_bars,
-              "By default all errors are estimated from runs on three coarser meshes, which take "
-              "one and a half times as long as the run itself. --error-bars=off: no estimate. "
-              "--error-bars: from other runs for each of time, mesh and layers; takes about 4 "
-              "times as long. --error-bars=time: of the integration in time only, about twice as "
-              "long",
-              {},
-              {"all", "time", "off"}},
+             error_bars,
              {"--body-errors",
               &options.body_errors,
               "off: no estimate of how far the body itself may be from the model",

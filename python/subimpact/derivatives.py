@@ -53,8 +53,9 @@ _GRAZE = 3.0  # of the change of a margin over the larger shift
 class Sensitivity:
     """The derivatives of the numbers of every sub-impact by the logarithms of keys."""
 
-    def __init__(self, base: Result, keys: list[str], remarks: list[str], interrupted: bool) -> None:
-        self.base = base  #: the run about which derivatives are taken, at a tolerance of 1e-13 or less
+    def __init__(self, run: _core.Finished, keys: list[str], remarks: list[str], interrupted: bool) -> None:
+        self.run = run
+        self.base = base = Result(run)  #: the run about which derivatives are taken, at a tolerance of 1e-13 or less
         self.keys = keys  #: the keys p by which there are derivatives df/d ln p
         self.remarks = remarks  #: what differs from the case, and keys without derivatives, in sentences
         self.interrupted = interrupted  #: whether Ctrl-C ended the study; `keys` are those whose runs had ended
@@ -90,7 +91,8 @@ class Sensitivity:
         if quantity not in QUANTITIES:
             raise ValueError(f"quantity is {quantity!r}; allowed: {', '.join(QUANTITIES)}")
         q = QUANTITIES.index(quantity)
-        return self.derivatives[np.isfinite(self.values[:, q]), q]
+        found: Numbers = self.derivatives[np.isfinite(self.values[:, q]), q]
+        return found
 
     def report(self) -> str:
         """The table that `subimpact sensitivity` prints: changes of event times per 1 %."""
@@ -139,7 +141,7 @@ def _per_percent(derivative: float, error: float) -> str:
 
 
 def values_of(sub_impacts: Table) -> Numbers:
-    values = np.stack([sub_impacts[name].astype(float) for name in QUANTITIES], axis=1)
+    values: Numbers = np.stack([sub_impacts[name].astype(float) for name in QUANTITIES], axis=1)
     values[np.isnan(values[:, END]), END:] = np.nan
     return values
 
@@ -185,7 +187,8 @@ def _differences(base: Numbers, runs: Numbers) -> tuple[Numbers, Numbers]:
 def _noise(bends: Numbers) -> Numbers:
     """The error of one run, from second differences: the bend at the smaller shift, minus its value extrapolated from the
     larger shift for a smooth number, is that error times the root of 3/2."""
-    return np.abs(bends[:, 1] - bends[:, 0] / (_RATIO * _RATIO)) / np.sqrt(1.5)
+    error: Numbers = np.abs(bends[:, 1] - bends[:, 0] / (_RATIO * _RATIO)) / np.sqrt(1.5)
+    return error
 
 
 def _derived(base: Numbers, runs: Numbers, error: Numbers, smooth: bool) -> tuple[Numbers, Numbers]:
@@ -253,7 +256,7 @@ def _derive(study: Sensitivity, check: Table, share: float, runs: list[Table]) -
 
 def _derive_near_misses(study: Sensitivity, runs: list[_core.Finished]) -> None:
     """Margins of near misses; flags sub-impacts that one makes uncertain which the shifts nearly reach."""
-    misses, base = study.base.summary["near_misses"], study.base._run
+    misses, base = study.base.summary["near_misses"], study.run
     smooth = study.base.summary["counts"]["yielded_sections"] == 0
     margins = np.full((len(runs), len(misses)), np.nan)
     for row, run in zip(margins, runs):
@@ -309,9 +312,8 @@ def study_of(case: Case, keys: list[str], given: Case, runs: Runs) -> Sensitivit
         if isinstance(run, CaseError):
             raise run
     assert isinstance(base, _core.Finished) and isinstance(check, _core.Finished)
-    result = Result(base)
-    if result.outcome != "completed":
-        return Sensitivity(result, [], remarks, runs.interrupted)
+    if base.outcome != "completed":
+        return Sensitivity(base, [], remarks, runs.interrupted)
     made = runs.of([lambda each=each: each for each in moved])  # type: ignore[misc]
     kept: list[_core.Finished] = []
     complete = []
@@ -325,7 +327,7 @@ def study_of(case: Case, keys: list[str], given: Case, runs: Runs) -> Sensitivit
             raise failed[0]
         elif failed[0].outcome != "stopped":
             remarks.append(f"no derivatives by {key}: a run with a shifted value ended {failed[0].outcome}: {failed[0].message}")
-    study = Sensitivity(result, complete, remarks, runs.interrupted)
+    study = Sensitivity(base, complete, remarks, runs.interrupted)
     if not runs.interrupted and not (study.values > 0)[:, :END + 1].any():
         remarks.append("no number of a sub-impact can be derived before time.end: the first contact lasts to the end; use a later "
                        "time.end")

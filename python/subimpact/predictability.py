@@ -74,7 +74,8 @@ class Scatter:
     def deviation(self, derivatives: Numbers, errors: Numbers) -> Numbers:
         """Standard deviations of numbers with these derivatives (keys last), each enlarged by its error."""
         change = np.where(self._s > 0, (np.abs(derivatives) + errors) * self._s, 0.0)
-        return np.sqrt(np.square(change).sum(axis=-1))
+        found: Numbers = np.sqrt(np.square(change).sum(axis=-1))
+        return found
 
     def _of_difference(self, later: tuple[int, int], earlier: tuple[int, int]) -> float:
         d, e = self.study.derivatives, self.study.errors
@@ -120,7 +121,7 @@ class Scatter:
         if np.isnan(largest):
             flag = self.study.flags[i][START]
             return f"it {flag}" if flag else "its standard deviation is not known"
-        lengths = []
+        lengths: list[tuple[str, float, tuple[tuple[int, int], tuple[int, int]] | None]] = []
         if has_ended[i]:
             lengths.append(("its duration", end[i] - start[i], ((i, END), (i, START))))
         if i > 0 and has_ended[i - 1]:
@@ -140,7 +141,7 @@ class Scatter:
     def _zone(self, first: int, last: int) -> dict[str, float]:
         """Of a zone's start, end and impulse, the momentum that the striker loses; NaN: not known."""
         study, hits, d, e = self.study, self.base.sub_impacts, self.study.derivatives, self.study.errors
-        mass, v0 = _core.moving_mass(self.base._run), _core.velocity_scale(self.base._run)
+        mass, v0 = _core.moving_mass(study.run), _core.velocity_scale(study.run)
         by_velocity = np.array([key == "striker.velocity" for key in study.keys], dtype=float)
         by_mass = np.array([key == "striker.mass" for key in study.keys], dtype=float)
         before, error = (d[first - 1, VELOCITY], e[first - 1, VELOCITY]) if first > 0 else (v0 * by_velocity, 0.0)
@@ -158,7 +159,8 @@ class Scatter:
             one, *values = (float(row[name] or "nan") for row in rows)
             if values and np.isfinite(values).all():
                 spread = float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
-                self.totals[name] = Total(float(np.mean(values)), spread, *np.quantile(values, (0.05, 0.95)).tolist(), one)
+                low, high = np.quantile(values, (0.05, 0.95)).tolist()
+                self.totals[name] = Total(float(np.mean(values)), spread, low, high, one)
 
     def summary(self) -> dict[str, Any]:
         """What scatter.json has beside the table of starts and ends."""
