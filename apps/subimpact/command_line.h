@@ -29,8 +29,6 @@ struct Option {
   List list = List::by_commas;
   bool is_required = false;
   std::string if_bare = {};  ///< the value if none is given; empty: one is needed
-};                           ///< an option without which it is refused
-bool is_required = false, is_repeated = false;  ///< a list: by one value at a time
 };
 
 struct Command {
