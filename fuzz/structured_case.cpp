@@ -7,7 +7,6 @@
 
 #include "byte_source.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/doubtful_units.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"

@@ -12,7 +12,6 @@
 #include "case/keys/units.h"
 #include "io/printable.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/doubtful_units.h"
 #include "subimpact/report/text.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/study/model/scene_choice.h"

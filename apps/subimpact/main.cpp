@@ -10,7 +10,7 @@
 #include <new>
 
 #include "commands.h"
-#include "numerics/processor.h"
+#include "numerics/lanes.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "bindings.h"
 #include "case/keys/materials.h"
 #include "case/keys/units.h"
-#include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"

@@ -1,7 +1,7 @@
 #include <exception>
 
 #include "bindings.h"
-#include "numerics/processor.h"
+#include "numerics/lanes.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact::python {

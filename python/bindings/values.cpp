@@ -10,7 +10,7 @@
 
 #include "bindings.h"
 #include "case/keys/units.h"
-#include "io/records/values_of_keys.h"
+#include "io/records/record.h"
 
 namespace subimpact::python {
 namespace {

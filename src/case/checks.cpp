@@ -11,7 +11,6 @@
 #include "case/problem.h"
 #include "case/refuse.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/doubtful_units.h"
 
 namespace subimpact {
 namespace {

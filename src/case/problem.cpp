@@ -14,7 +14,6 @@
 #include "simulate/run_parts.h"
 #include "simulate/settings/methods.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/doubtful_units.h"
 
 namespace subimpact {
 namespace {

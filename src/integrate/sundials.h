@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,5 +66,11 @@ std::unique_ptr<Integrator> make_cvode_adams(SecondOrderOde& ode, const Integrat
 /// sparse: KLU factors it, its pattern analysed once.
 std::unique_ptr<Integrator> make_cvode_bdf(MechanicalSystem& system,
                                            const IntegratorOptions& options);
+
+/// R(z) of an explicit or diagonally implicit Runge-Kutta table: y' = lambda y goes from y to R(h
+/// lambda) y in one step. On an undamped oscillation, |R(i omega h)| is the growth of its
+/// amplitude. Throw std::invalid_argument for an unknown table.
+std::complex<double> explicit_stability(const std::string& table, std::complex<double> z);
+std::complex<double> dirk_stability(const std::string& table, std::complex<double> z);
 
 }  // namespace subimpact

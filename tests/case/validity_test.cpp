@@ -1,7 +1,7 @@
 // What a run says about the limits of the model: each warning in a scene that deserves it and in
 // one that does not.
 
-#include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/case_keys.h"
 
 #include "paper_case.h"
 

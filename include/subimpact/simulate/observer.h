@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "subimpact/system/energies.h"
-#include "subimpact/system/events.h"
+#include "subimpact/system/readings.h"
 
 namespace subimpact {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "subimpact/simulate/assessment.h"
-#include "subimpact/system/events.h"
+#include "subimpact/system/readings.h"
 
 namespace subimpact {
 

@@ -13,8 +13,7 @@
 #include "subimpact/simulate/assessment.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/records.h"
-#include "subimpact/system/energies.h"
-#include "subimpact/system/plastic_zone.h"
+#include "subimpact/system/readings.h"
 
 namespace subimpact {
 

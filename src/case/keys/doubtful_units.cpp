@@ -1,4 +1,4 @@
-#include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/case_keys.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "model/contact/contact_laws.h"
 #include "model/mesh/modes.h"
 #include "numerics/units.h"
-#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {

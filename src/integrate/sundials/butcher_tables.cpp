@@ -8,7 +8,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "integrate/stability.h"
 #include "integrate/sundials.h"
 
 namespace subimpact {

@@ -20,7 +20,6 @@
 #include "case/refuse.h"
 #include "io/case_file/toml_nodes.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/doubtful_units.h"
 
 namespace subimpact {
 namespace {

@@ -1,14 +1,22 @@
 #pragma once
 
 #include <fmt/format.h>
-
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <type_traits>
 
 #include "case/keys/case_choices.h"
-#include "io/records/values_of_keys.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
+
+using Json = nlohmann::ordered_json;  // readers see members in the order written
+
+/// A value of a key: a number, a text, a list; things at points are a list of objects.
+Json json_of(const KeyValue& value);
+/// Its inverse, also for what a case file holds. Nothing if no key can hold it (a mixed list).
+std::optional<KeyValue> key_value_of(const CaseKey& key, const Json& json);
 
 /// The integer that a JSON value holds. Throws std::out_of_range for 1e300, 0.5 or -1 where they do
 /// not fit: their conversion is undefined.

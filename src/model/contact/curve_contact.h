@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/contact/curves/monotone_curve.h"
+#include "model/contact/curves.h"
 #include "subimpact/model/contact/contact_law.h"
 
 namespace subimpact {

@@ -5,8 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "model/contact/curves/mean_pressure.h"
-#include "model/contact/curves/start_table.h"
+#include "model/contact/curves.h"
 #include "subimpact/model/contact/contact_law.h"
 
 namespace subimpact {
@@ -76,5 +75,57 @@ class MidPlaneContact final : public ContactLaw {
   StartTable elastic_starts_, plastic_starts_;  // of half widths, below and above first yield
   std::uint64_t serial_;                        // of this law, among all
 };
+
+struct BodiesOfBall {
+  double radius, depth;     ///< R, d, m
+  double beam_modulus;      ///< E, Pa
+  double beam_poisson;      ///< nu
+  double modulus;           ///< E* of both, Pa
+  double of_ellipse = 1.0;  ///< F_2: approach over that of a circle, under the same force
+};
+
+/// A ball on a beam, or on a half-space (infinite d), with E* of both bodies, E and nu of the beam,
+/// the depth d of its mid-plane and theta = atan(a/d):
+///
+///     F      = 4 E* a^3/(3 R)   (elastic: Hertz)
+///     lambda = a^2/(2 R) + 3 F/(8 E* a) - C(a) F
+///     C      = 3 (1 + nu)/(2 pi E a^3) (d^2 (a/d - theta) + (1 - nu) ((a^2 + d^2) theta - a d))
+///
+/// C F is what a half-space moves at the depth d under Hertz's pressure, which is no indentation
+/// but belongs to the beam: under a rigid ball, for small a, the share
+/// 4/3 (3 - 2 nu)/(2 pi (1 - nu)) a/d of Hertz's. Valid up to a = d.
+///
+/// A touch in an ellipse counts as one in a circle of the same area, with R the geometric mean of
+/// the radii of the gap, and 2 F_2 - 1 times the second term of lambda, so that the elastic
+/// stiffness is that of the ellipse. For mild ones: pressures are 2 % off where one radius is twice
+/// the other, a tenth where it is five times the other.
+///
+/// Source: K. L. Johnson, Contact Mechanics, sections 3.2 (Boussinesq's displacement of a point
+/// load, here integrated over the pressure), 4.2 and 6.3.
+NoseOnBeam ball_on_beam(const BodiesOfBall& bodies);
+
+struct BodiesOfLine {
+  double radius, width, depth;  ///< R, b, d, m
+  double beam_modulus;          ///< E_1* = E_1/(1 - nu_1^2), Pa
+  double beam_poisson;          ///< nu_1
+  double nose_modulus;          ///< E_2*, Pa; infinite: rigid
+};
+
+/// A cylinder across a beam, which touches it along a line: per width F' = F/b, with
+/// 1/E* = 1/E_1* + 1/E_2*, k = nu_1/(1 - nu_1) and the depth d of the mid-plane,
+///
+///     F'     = pi E* a^2/(4 R)   (elastic)
+///     lambda = a^2/(2 R) - 2 F'/(pi E*)
+///              + F'/(pi E_1*) (2 ln(2 d/a) - k) + F'/(pi E_2*) (2 ln(4 R/a) - 1)
+///
+/// The first two terms are the shape under Hertz's pressure (an even one would have -1.77 for -2),
+/// the next ones what beam and nose give way down to the mid-plane and up to the middle of the
+/// nose: the approach of points far away is infinite. Plane strain: for noses much longer than the
+/// contact is wide, while the last three terms exceed F'/(2 pi E*); under a rigid nose that is up
+/// to a = 2 d exp(-(k + 2.5)/2), and unloading turns back at 2 d exp(-(k + 1)/2).
+///
+/// Source: K. L. Johnson, Contact Mechanics, equations 4.43, 4.45, 5.57 and 5.58, of
+/// which a nose has half: a cylinder between two plates.
+NoseOnBeam cylinder_across(const BodiesOfLine& bodies);
 
 }  // namespace subimpact

@@ -7,7 +7,7 @@
 
 #include "case/counted.h"
 #include "report/text/uncertain.h"
-#include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {

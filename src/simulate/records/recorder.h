@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 
-#include "simulate/largest_gap.h"
 #include "simulate/loop/event_loop.h"
 #include "simulate/loop/quadratures.h"
 #include "simulate/near_miss_search.h"

@@ -6,7 +6,7 @@
 
 #include "numerics/bracketed_root.h"
 #include "subimpact/model/contact/contact_law.h"
-#include "subimpact/system/events.h"
+#include "subimpact/system/readings.h"
 
 namespace subimpact {
 

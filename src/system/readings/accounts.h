@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "subimpact/system/energies.h"
+#include "subimpact/system/readings.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

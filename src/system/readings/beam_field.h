@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "subimpact/model/scene.h"
-#include "subimpact/system/plastic_zone.h"
+#include "subimpact/system/readings.h"
 #include "system/readings/accounts.h"
 
 namespace subimpact {

@@ -3,8 +3,6 @@
 
 #include "model/contact/mid_plane_contact.h"
 
-#include "model/contact/ball_contact.h"
-#include "model/contact/line_contact.h"
 #include "testing.h"
 
 namespace subimpact {

@@ -1,7 +1,6 @@
 // Contacts of spheres: Thornton's that yields, Hertz's where the surfaces touch in an ellipse, and
 // the door through which a law is its force alone.
 
-#include "model/contact/sphere_contact.h"
 #include "model/contact/contact_laws.h"
 #include "model/contact/power_contact.h"
 #include "paper_scene.h"

@@ -1,10 +1,8 @@
-#include "model/contact/curves/start_table.h"
+#include "model/contact/curves.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "model/contact/curves/mean_pressure.h"
 
 namespace subimpact {
 namespace {

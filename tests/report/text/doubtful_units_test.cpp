@@ -1,4 +1,4 @@
-#include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/case_keys.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "integrate/stability.h"
+#include "integrate/sundials.h"
 #include "simulate/run_parts.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/model/mesh/beam_mesh.h"

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "integrate/central_difference.h"
-#include "integrate/stability.h"
+#include "integrate/sundials.h"
 #include "numerics/bracketed_root.h"
 #include "simulate/run_parts.h"
 #include "stability/coefficients.h"
