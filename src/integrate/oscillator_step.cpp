@@ -5,7 +5,6 @@
 
 #include "numerics/gauss.h"
 #include "numerics/lanes.h"
-#include "numerics/sin_cos.h"
 
 namespace subimpact {
 namespace {

@@ -8,7 +8,6 @@
 #include "numerics/hermite.h"
 
 namespace subimpact {
-
 namespace {
 
 // Near: a margin below this part of the largest gap of the contact or separation.

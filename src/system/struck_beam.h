@@ -15,7 +15,6 @@
 #include "system/beam_jacobian.h"
 #include "system/contact/contact_state.h"
 #include "system/loads.h"
-#include "system/tension.h"
 
 namespace subimpact {
 

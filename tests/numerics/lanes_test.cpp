@@ -1,7 +1,6 @@
 // Operations on eight numbers at once against the same one by one.
 
 #include "numerics/lanes.h"
-#include "numerics/sin_cos.h"
 #include "numerics/vector_sum.h"
 #include "subimpact/numerics/banded_matrix.h"
 #include "testing.h"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <ranges>
 #include <string_view>
 
@@ -156,6 +156,25 @@ std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys&
 std::string why_without_effect(const Case& input, const CaseKey& key) {
   const char* reason = reason_of(key, input);
   return reason == nullptr ? "" : "has no effect with " + setting_text(input, reason);
+}
+
+namespace {
+
+bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
+  return std::ranges::any_of(keys, [&](const char* key) { return given.contain(key); });
+}
+
+}  // namespace
+
+OpenChoices open_choices(const GivenKeys& given) {
+  OpenChoices open;
+  open.size = !has_any(given, {"model.segments", "model.elements"});
+  open.mesh = open.size && !has_any(given, {"model.mesh", "model.spacing", "model.hinges"});
+  open.tolerance = !has_any(given, {"solver.rtol", "solver.step", "solver.max_step"});
+  open.method =
+      open.tolerance && !has_any(given, {"solver.method", "solver.table", "solver.max_order",
+                                         "solver.events", "solver.reversals"});
+  return open;
 }
 
 }  // namespace subimpact

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 namespace subimpact {
-
 namespace {
 
 using Nose = MeanPressure::Nose;

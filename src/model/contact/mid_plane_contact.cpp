@@ -9,7 +9,6 @@
 #include "numerics/gauss.h"
 
 namespace subimpact {
-
 namespace {
 
 std::atomic<std::uint64_t> n_laws = 0;

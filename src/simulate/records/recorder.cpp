@@ -10,7 +10,7 @@
 #include "numerics/hermite.h"
 #include "numerics/lanes.h"
 #include "simulate/run_parts.h"
-#include "system/readings/rigid_motion.h"
+#include "system/readings/accounts.h"
 
 namespace subimpact {
 namespace {

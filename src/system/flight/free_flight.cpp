@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "numerics/lanes.h"
-#include "numerics/sin_cos.h"
 
 namespace subimpact {
 

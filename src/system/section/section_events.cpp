@@ -10,7 +10,6 @@
 #include "numerics/lanes.h"
 
 namespace subimpact {
-
 namespace {
 
 // Entries of an influence below this share of the largest are left out.

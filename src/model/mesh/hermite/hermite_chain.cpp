@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/sin_cos.h"
+#include "numerics/lanes.h"
 
 namespace subimpact::chain {
 

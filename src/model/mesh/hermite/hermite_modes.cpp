@@ -8,7 +8,7 @@
 
 #include "model/mesh/hermite/hermite_chain.h"
 #include "numerics/bracketed_root.h"
-#include "numerics/sin_cos.h"
+#include "numerics/lanes.h"
 
 namespace subimpact {
 namespace {
