@@ -30,13 +30,10 @@ def keys(program):
             page.append(f"## `[{table}]`\n")
         elif found := re.match(r"(\w+) +(.*)", line):
             name = f"{table}.{found[1]}" if table else found[1]
-            if table.startswith("scatter."):  # one sentence over and over
-                page.append(f"- `{name}`: {escaped(found[2])}")
-                continue
             page.append(f"### `{name}`\n\n{escaped(found[2])}\n")
         elif found := re.match(r" {21} *(\S+) {2,}(.*)", line):
             page.append(f"- `{found[1]}`: {escaped(found[2])}")
-        elif line.strip() and not table.startswith("scatter."):
+        elif line.strip():
             page.append(f"*{escaped(line.strip())}*\n")
         elif not line.strip():
             page.append("")

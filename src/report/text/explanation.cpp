@@ -224,8 +224,7 @@ std::string explanation(const Case& input, const GivenKeys& given) {
 }
 
 std::string key_listing(const std::string& word) {
-  std::string text;
-  std::string table;
+  std::string text, table, scatter;
   const auto lower = [](unsigned char letter) { return std::tolower(letter); };
   const auto has_word = [&](const std::string& words) {
     return word.empty() || !std::ranges::search(words, word, {}, lower, lower).empty();
@@ -236,6 +235,11 @@ std::string key_listing(const std::string& word) {
                              return has_word(choice.name) || has_word(choice.note);
                            });
     if (!is_wanted) continue;
+    constexpr std::string_view of_scatter = "scatter.";
+    if (word.empty() && key.name.starts_with(of_scatter)) {  // all alike
+      scatter += (scatter.empty() ? "" : ", ") + key.name.substr(of_scatter.size());
+      continue;
+    }
     if (key.table() != table) text += fmt::format("\n[{}]\n", table = key.table());
     text += fmt::format("{:<18} {}\n", key.leaf(), key.meaning);
     const std::string allowed =
@@ -246,7 +250,11 @@ std::string key_listing(const std::string& word) {
       text += fmt::format("{:<20} {:<18} {}\n", "", choice.name, choice.note);
     }
   }
-  return text;
+  if (scatter.empty()) return text;
+  return text + fmt::format(
+                    "\n[scatter]\nrelative standard deviations, each a number, from 0 to "
+                    "0.5; default 0, of {}\n",
+                    scatter);
 }
 
 std::string method_listing() {
