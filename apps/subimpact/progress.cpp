@@ -64,13 +64,6 @@ void StatusLine::write(const std::string& text) {
   std::fflush(stderr);
 }
 
-void StatusLine::show_runs(const std::string& what, std::size_t n_done, std::size_t n_all) {
-  const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - start_;
-  const auto left = static_cast<double>(n_all - n_done) / static_cast<double>(n_done);
-  show(fmt::format("{}{} of {} runs{}", what, n_done, n_all,
-                   n_done == 0 ? "" : fmt::format(", about {:.0f} s left", so_far.count() * left)));
-}
-
 void StatusLine::clear() {
   if (is_dirty_) fmt::print(stderr, "\r\033[K");
   is_dirty_ = false;

@@ -37,14 +37,11 @@ class StatusLine {
   StatusLine& operator=(const StatusLine&) = delete;
 
   void show(const std::string& text) { write(text + " ..."); }
-  /// "3 of 36 runs, about 20 s left": by the time since the first of the runs began.
-  void show_runs(const std::string& what, std::size_t n_done, std::size_t n_all);
   void write(const std::string& text);
   void clear();
 
  private:
   bool is_dirty_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 class ProgressDisplay {

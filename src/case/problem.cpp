@@ -110,11 +110,6 @@ bool uses_symmetry(const Case& input) {
   return input.model.symmetry == SymmetryUse::automatic && is_symmetric(input);
 }
 
-std::optional<double> step_of(const Case& input) {
-  const bool is_fixed = descriptor_of(input.solver.method).has_fixed_steps();
-  return is_fixed ? resolve(input).settings().step : input.solver.step;
-}
-
 double largest_stable_step(Case input) {
   input.solver.step.reset();
   return default_part_of_critical * resolve(input).settings().critical_step;

@@ -31,9 +31,6 @@ bool may_yield(const Case& input);
 bool is_symmetric(const Case& input);
 bool uses_symmetry(const Case& input);
 
-/// The fixed step of a run of the case, s; nothing for adaptive steps. Builds the model of the case
-/// only where the step follows from it.
-std::optional<double> step_of(const Case& input);
 /// The largest step that is left a margin to the critical step of the case, whatever its own step.
 double largest_stable_step(Case input);
 

@@ -56,25 +56,4 @@ inline double wall_seconds(const std::vector<double>& tasks, unsigned jobs) {
   return *std::ranges::max_element(busy);
 }
 
-/// Runs cases, `jobs` at a time. `progress` ends all; `finished`, one call at a time, counts those
-/// that were not stopped.
-inline std::vector<Result> simulate_all(const std::vector<Case>& cases, unsigned jobs,
-                                        const Progress& progress = {},
-                                        const std::function<void()>& finished = {}) {
-  std::vector<Result> results(cases.size());
-  std::mutex mutex;
-  std::atomic<bool> stop = false;
-  const auto goes_on = [&](double time) {
-    if (progress && !progress(time)) stop = true;
-    return !stop;
-  };
-  in_parallel(cases.size(), jobs, [&](std::size_t i) {
-    results[i] = simulate(cases[i], goes_on);
-    if (results[i].outcome.kind == OutcomeKind::stopped) return;
-    const std::lock_guard lock(mutex);
-    if (finished) finished();
-  });
-  return results;
-}
-
 }  // namespace subimpact

@@ -93,8 +93,6 @@ const std::vector<CaseKey>& case_keys();
 
 /// The key of that name ("beam.length"), or nullptr.
 const CaseKey* find_case_key(std::string_view name);
-/// The same; throws InvalidCase, with the nearest name.
-const CaseKey& known_key(const std::string& name);
 
 /// What the key accepts: "a number, above 0 (m)".
 std::string allowed_values(const CaseKey& key);

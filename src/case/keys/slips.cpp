@@ -119,16 +119,6 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   return best;
 }
 
-const CaseKey& known_key(const std::string& name) {
-  if (const CaseKey* key = find_case_key(name)) return *key;
-  std::vector<std::string> names;
-  for (const CaseKey& key : case_keys()) names.push_back(key.name);
-  const std::string near = nearest_name(name, names);
-  throw InvalidCase(
-      name, "is no key of a case; " + (near.empty() ? "`subimpact keys` lists them"
-                                                    : fmt::format("did you mean \"{}\"?", near)));
-}
-
 std::string_view leading_decimal_comma(std::string_view text) {
   const auto fraction = after_digits(after_any_of("+-", text));
   if (!fraction || !fraction->starts_with(',')) return {};

@@ -135,24 +135,4 @@ std::string read_whole_file(const fs::path& path) {
   return text;
 }
 
-std::string listed_text(const fs::path& directory, const std::string& name) {
-  const fs::path path = directory / name;
-  const std::optional<Manifest> manifest = read_manifest(directory);
-  if (!manifest || !manifest->files.contains(name)) {
-    fail<ResultsError>("{}: is not among the results that {} lists", path.string(), manifest_name);
-  }
-  // A file that is not yet in its place waits under the name of its commit.
-  for (const fs::path& place : {path, staging_of(directory, manifest->commit) / name, path}) {
-    std::error_code ignored;
-    if (!fs::exists(place, ignored)) continue;
-    std::string text = read_whole_file(place);
-    std::istringstream stream(text);
-    if (fingerprint_of(stream) == manifest->files.at(name)) return text;
-  }
-  fail<ResultsError>(
-      "{}: is not the file that the run wrote (its length or checksum differs from {}): it was "
-      "changed or cut short since, or a run is replacing it; read it again, or run the case again",
-      path.string(), manifest_name);
-}
-
 }  // namespace subimpact

@@ -52,7 +52,4 @@ void write_file(const std::filesystem::path& path, const std::string& content);
 /// Writes the whole content to an open file. Returns 0, or the number of the error.
 int write_all(int file, std::string_view content);
 
-/// The text of a file whose length and checksum are those of the manifest. Throws ResultsError.
-std::string listed_text(const std::filesystem::path& directory, const std::string& name);
-
 }  // namespace subimpact

@@ -120,14 +120,12 @@ std::vector<LengthBeside> lengths_beside(const std::vector<SubImpact>& all, std:
   using Kind = Reason::Kind;
   const SubImpact& here = all[number];
   std::vector<LengthBeside> list;
-  if (here.end) list.push_back({Kind::duration, "its duration", *here.end - here.start});
+  if (here.end) list.push_back({Kind::duration, *here.end - here.start});
   if (number > 0 && all[number - 1].end) {
-    list.push_back(
-        {Kind::separation_before, "the separation before it", here.start - *all[number - 1].end});
+    list.push_back({Kind::separation_before, here.start - *all[number - 1].end});
   }
   if (number + 1 < all.size() && here.end) {
-    list.push_back(
-        {Kind::separation_after, "the separation after it", all[number + 1].start - *here.end});
+    list.push_back({Kind::separation_after, all[number + 1].start - *here.end});
   }
   return list;
 }

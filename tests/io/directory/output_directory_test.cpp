@@ -1,6 +1,7 @@
 #include "subimpact/io/output_directory.h"
 
 #include <sys/stat.h>
+#include <sstream>
 
 #include "file_size_limit.h"
 #include "io/directory/listed_files.h"
@@ -29,6 +30,18 @@ void make(const fs::path& directory, const std::string& kind, const std::string&
 void commit(OutputDirectory& files, const std::string& name, const std::string& content) {
   write_file(files.staging() / name, content);
   files.commit();
+}
+
+// A file that the manifest lists, as a reader finds it: one that is not yet in its place waits
+// under the name of its commit.
+std::string listed_text(const fs::path& directory, const std::string& name) {
+  const Manifest manifest = read_manifest(directory).value();
+  for (const fs::path& place : {directory / name, staging_of(directory, manifest.commit) / name}) {
+    if (!fs::exists(place)) continue;
+    std::istringstream text(read_whole_file(place));
+    if (fingerprint_of(text) == manifest.files.at(name)) return text.str();
+  }
+  return "not the file that the manifest lists";
 }
 
 std::string refusal_of(const fs::path& directory, const std::string& kind,

@@ -38,7 +38,6 @@ std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>
 /// A time compared with which errors of a sub-impact must be small.
 struct LengthBeside {
   Reason::Kind kind;  ///< duration, separation_before or separation_after
-  const char* words;  ///< "its duration", "the separation before it"
   double length;      ///< s
 };
 
