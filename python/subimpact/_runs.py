@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
-from typing import Callable as Function
 from typing import Optional
 
 from . import _core
 from ._errors import CaseError
 from .case import Case
 
-Progress = Optional[Function[[int, int], object]]
+Progress = Optional[Callable[[int, int], object]]
 
 
 class Runs:
