@@ -31,7 +31,7 @@ class ModesOfElements : public testing::TestWithParam<std::tuple<Chain, BeamTheo
     // Struck at a node, so that all elements are equal.
     const double position =
         extent() == Extent::half ? 0.5 : 1.0 / static_cast<double>(n_elements());
-    return {beam(), position, n_elements(), 2, extent()};
+    return {beam(), position, n_elements(), extent()};
   }
   double stiffness() const { return beam().bending_stiffness(); }
   std::optional<NaturalModes> closed() const {
