@@ -101,7 +101,7 @@ TEST(ARunAsAsked, GivesWhatTheProgramGivesNumberForNumber) {
   const auto program = summary_in(directory.path / "here");
   const LoadedCase loaded = read_case_file(SUBIMPACT_PAPER_CASE, {parse_override("time.end=3e-4")});
   const WithinRun here = run_as_asked(loaded.value, loaded.given);
-  EXPECT_EQ(here.result.used.mesh, program.at("used").at("mesh"));
+  EXPECT_EQ(here.result.used.mesh, program.at("used").at("mesh").get<std::string>());
   EXPECT_EQ(csv_of<SubImpact>(here.result), directory.read("here/events.csv"));
   EXPECT_EQ(here.result.striker_velocity, program.at("final").at("striker_velocity_m_per_s"));
 }
