@@ -133,6 +133,7 @@ std::vector<Command> python_commands() {
         {},
         fmt::format("Needs the Python package; subimpact {} --help has its options.", name),
         [=](const auto& rest) { return run_python(module, rest); },
+        true,
         true};
   };
   const Command python = {
