@@ -228,6 +228,20 @@ class Interruptions {
     fmt::print("WRONG: {}\n", what);
   }
 
+  // A file as a reader finds it: the one that the manifest lists, in its place or, if that is still
+  // to come, under the name of its commit.
+  static std::string listed_text(const fs::path& directory, const std::string& name) {
+    const Manifest manifest = read_manifest(directory).value();
+    const fs::path path = directory / name;
+    for (const fs::path& place : {path, staging_of(directory, manifest.commit) / name, path}) {
+      std::error_code ignored;
+      if (!fs::exists(place, ignored)) continue;
+      std::istringstream text(read_whole_file(place));
+      if (fingerprint_of(text) == manifest.files.at(name)) return text.str();
+    }
+    throw std::runtime_error(path.string() + " is not the file that the manifest lists");
+  }
+
   // Which run's results a reader finds in a directory. What it finds must be whole. Throws.
   int variant_in(const fs::path& directory) {
     const auto summary = nlohmann::json::parse(listed_text(directory, "summary.json"));
