@@ -300,8 +300,8 @@ TEST_F(ARun, ThatEndsWithinTheFirstContactStatesNoErrorOfItsEnd) {
   const Finished run =
       run_in(directory, paper("run", {"time.end=3.71e-5", "output.interval=0"}, {"--verbose"}));
   expect_in(unwrapped(run.output),
-            "no event time up to 37.1 us but the first touch, which is exact", "up to 8.8 +- 5.7 kN",
-            "\n   1             0        (open)");
+            "no event time up to 37.1 us but the first touch, which is exact",
+            "up to 8.8 +- 5.7 kN", "\n   1             0        (open)");
   const TableRow open = table_in(directory.path / "case-results/events.csv").at(0);
   EXPECT_FALSE(open.contains("end_s") || open.contains("end_error_s"));
   EXPECT_EQ(open.number("start_error_s"), 0.0);
