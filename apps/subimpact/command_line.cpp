@@ -151,7 +151,14 @@ void print_options(const CLI::App& app) {
   }
 }
 
-void print_manual(const CLI::App& program) {
+// A command that prints its own help does so here, set as it is.
+void print_own_help(const Command& command) {
+  print(".PP\n.nf\n.tr -\\-\n");
+  command.run({"--help"});
+  print(".tr --\n.fi\n");
+}
+
+void print_manual(const CLI::App& program, const std::vector<Command>& commands) {
   print(".TH SUBIMPACT 1 \"\" \"subimpact {}\" \"User commands\"\n", project_version());
   print(".SH NAME\nsubimpact \\- sub\\-impacts of a rigid mass that strikes a beam\n");
   print(".SH SYNOPSIS\n.B subimpact\n.I COMMAND\n[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n");
@@ -163,6 +170,11 @@ void print_manual(const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands({})) {
     print(".SS subimpact {}\n", roff(command->get_name()));
     print_text(command->get_description() + ".");
+    const auto own = std::ranges::find(commands, command->get_name(), &Command::name);
+    if (own != commands.end() && own->has_own_help) {
+      print_own_help(*own);
+      continue;
+    }
     print_options(*command);
     print_text(command->get_footer());
   }
@@ -198,7 +210,7 @@ int run_command_line(int argc, char** argv, const std::vector<Command>& commands
                           {},
                           "Example:\n  subimpact manual | man -l -",
                           [&](const auto&) -> int {
-                            print_manual(program);
+                            print_manual(program, commands);
                             return done;
                           }};
   add(program, status, manual);
