@@ -10,7 +10,7 @@
 #include "bindings.h"
 #include "finished.h"
 #include "io/records/run_tables.h"
-#include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
