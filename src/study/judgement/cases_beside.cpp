@@ -18,11 +18,14 @@
 namespace subimpact {
 namespace {
 
-constexpr double sizes[] = {0.85, 0.7};  // of the meshes beside, over that of the case
-// Used where those are refused, for strikes too close to an end for a coarser mesh.
-constexpr double finer_sizes[] = {1.2, 1.45};
-// A far mesh shows errors that neighbouring meshes share, but it lacks some of their sub-impacts.
+// Sizes of the meshes beside, over that of the case. A near mesh has the same sub-impacts: the
+// coarser one, the lower the order at which meshes converge.
+constexpr double near_size = 0.7;
+constexpr double near_size_of_high_order = 0.85;
+// A far mesh shows errors that near ones share, but it lacks some of their sub-impacts.
 constexpr double far_size = 0.5;
+// Used where a near mesh is refused, for strikes too close to an end for a coarser one.
+constexpr double finer_sizes[] = {1.2, 1.45};
 constexpr double most_gain = 2.0;  // of differences
 constexpr double looser = 10.0;    // rtol, for a mesh of 0.7 and in time alone
 constexpr double loosest = 1e-1;
@@ -78,7 +81,7 @@ std::optional<CaseBeside> in_mesh_and_time(double size, const Case& input) {
   if (input.solver.step) {
     solver.step = *input.solver.step / size;
   } else if (!has_fixed_step(input)) {
-    const double exponent = std::log(size) / std::log(sizes[1]);
+    const double exponent = std::log(size) / std::log(near_size);
     solver.rtol = std::min(std::pow(looser, exponent) * solver.rtol, loosest);
   }
   return beside;
@@ -119,8 +122,8 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
   const auto include = [&](double size) {
     if (auto beside = in_mesh_and_time(size, input)) all.push_back(std::move(*beside));
   };
-  std::ranges::for_each(sizes, include);
-  if (all.size() < std::size(sizes)) {
+  include(mesh_order(input).value_or(2) > 2 ? near_size_of_high_order : near_size);
+  if (all.empty()) {
     std::ranges::for_each(finer_sizes, include);
   } else if (auto far = in_mesh_and_time(far_size, input)) {
     far->of_existence = false;
@@ -137,7 +140,7 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
   std::vector<CaseBeside> all = cases_beside_in_time(input);
   std::optional<CaseBeside> mesh = on_finer_cells(input);
-  if (!mesh) mesh = in_mesh_and_time(sizes[1], input);
+  if (!mesh) mesh = in_mesh_and_time(near_size, input);
   if (mesh) {
     mesh->source = ErrorSource::mesh;
     mesh->of_rows = false;
@@ -148,7 +151,7 @@ std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
 
 std::vector<CaseBeside> cases_beside_by_part(const Case& input) {
   std::vector<CaseBeside> all = cases_beside_in_time(input);
-  for (const double size : {sizes[0], sizes[1], far_size}) {
+  for (const double size : {near_size_of_high_order, near_size, far_size}) {
     std::optional<CaseBeside> beside = on_mesh_of(size, input);
     if (!beside) continue;
     beside->source = ErrorSource::mesh;

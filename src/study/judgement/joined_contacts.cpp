@@ -5,8 +5,7 @@
 namespace subimpact {
 namespace {
 
-constexpr double opening = 1e-6;       // m
-constexpr std::size_t few_of_all = 4;  // a fourth of them
+constexpr double opening = 1e-6;  // m
 
 // What judge() needs of a run, its contacts joined.
 Result joined_contacts_of(const Case& input, const Result& run) {
@@ -28,10 +27,9 @@ Result joined_contacts_of(const Case& input, const Result& run) {
 
 std::optional<ErrorEstimate::Joined> judge_joined(const Case& input, const Result& run,
                                                   std::span<const RunBeside> beside) {
-  const std::vector<SubImpact>& all = run.sub_impacts;
-  const auto n_uncertain =
-      static_cast<std::size_t>(std::ranges::count(all, std::optional(false), &SubImpact::certain));
-  if (input.output.opening > 0.0 || few_of_all * n_uncertain <= all.size()) return std::nullopt;
+  const bool all_certain =
+      std::ranges::count(run.sub_impacts, std::optional(false), &SubImpact::certain) == 0;
+  if (input.output.opening > 0.0 || all_certain) return std::nullopt;
   Case joined = input;
   joined.output.opening = opening;
   Result here = joined_contacts_of(input, run);

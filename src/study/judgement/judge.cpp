@@ -17,6 +17,7 @@ constexpr double margin_safety = 2.5;
 constexpr double existence_safety = 0.75;
 constexpr double free_end_safety = 4.0;  // safety factor of the error left by free ends
 constexpr double depth_safety = 0.5;
+constexpr double own_error_factor = 2.0;
 constexpr double steepest = 1.5;  // slope of a contact law over that of the secant, at most
 // Events or sub-impacts on either side whose errors count for one.
 constexpr std::size_t half_window = 3;
@@ -78,6 +79,14 @@ double Judge::time_error(std::size_t event) const {
                    free_end_safety * of_ends, rounding_of_times * here.time});
 }
 
+double Judge::usual_time_error(std::size_t event) const {
+  const double around =
+      median_around(event, events_.size(), [&](std::size_t e) -> std::optional<double> {
+        return e > 0 && events_[e].known ? std::optional(time_error(e)) : std::nullopt;
+      });
+  return std::min(time_error(event), around);
+}
+
 double Judge::value_error(std::size_t i, const Value& value, double least) const {
   const std::optional<double> own = difference(i, value);
   if (!own) return unknown;
@@ -105,9 +114,9 @@ double Judge::least_force_error(std::size_t i) const {
 }
 
 std::optional<Reason> Judge::doubt_of(std::size_t i, double strictness) const {
-  for (const std::size_t k : of_existence_) {
+  for (std::size_t k = 0; k < beside_.size(); ++k) {
     const Partner& partner = partners_[k].of[i];
-    if (partner.there && partner.alone) continue;
+    if ((partner.there && partner.alone) || !shows(k, i)) continue;
     if (stopped_before(k, run_.end_of(all_[i]))) return reason_beside(Kind::stopped_beside, k);
     return reason_beside(partner.there ? Kind::split_beside : Kind::missing_beside, k);
   }
@@ -122,8 +131,8 @@ std::optional<Reason> Judge::doubt_of(std::size_t i, double strictness) const {
         first == i ? Kind::opening_after : Kind::opening_before, {}, opening(first), error};
   }
   if (auto joined = doubt_by_joining(i)) return joined;
-  const double start_error = time_error(2 * i);
-  const double end_error = here.end ? time_error(2 * i + 1) : 0.0;
+  const double start_error = usual_time_error(2 * i);
+  const double end_error = here.end ? usual_time_error(2 * i + 1) : 0.0;
   for (const LengthBeside& beside : lengths_beside(all_, i)) {
     const double error = strictness * ((beside.kind == Kind::separation_after ? 0.0 : start_error) +
                                        (beside.kind == Kind::separation_before ? 0.0 : end_error));
@@ -201,6 +210,22 @@ const SubImpact* Judge::shown_by(std::size_t k, std::size_t i) const {
   const Partner& partner = partners_[k].of[i];
   if (stopped_before(k, run_.end_of(all_[i]))) return nullptr;
   return partner.alone || beside_[k].of.of_existence ? partner.there : nullptr;
+}
+
+bool Judge::shows(std::size_t k, std::size_t i) const {
+  if (beside_[k].of.of_existence) return true;
+  const double error = own_error_factor * std::max(own_error(k, 2 * i), own_error(k, 2 * i + 1));
+  return error < depth(i) && (i == 0 || error < opening(i - 1)) &&
+         (i + 1 == all_.size() || error < opening(i));
+}
+
+double Judge::own_error(std::size_t k, std::size_t event) const {
+  return median_around(event, events_.size(), [&](std::size_t e) -> std::optional<double> {
+    const SubImpact* there = shown_by(k, e / 2);
+    if (there == nullptr) return unknown;
+    const std::optional<double> time = e % 2 == 0 ? std::optional(there->start) : there->end;
+    return time ? std::abs(events_[e].time - *time) * events_[e].rate : unknown;
+  });
 }
 
 void Judge::set_deltas() {

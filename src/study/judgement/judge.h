@@ -75,10 +75,17 @@ class Judge {
     bool known = false;
   };
 
+  // At most the median of those around it: a graze is known by its depth, not by its time.
+  double usual_time_error(std::size_t event) const;
   static Partners partners_in(const Result& run, const Result& other);
   void set_events();
   // The sub-impact of a run beside that shows errors of one; none: it has none.
   const SubImpact* shown_by(std::size_t k, std::size_t i) const;
+  // Whether a run beside would have sub-impact i if there were one: where it does not count for
+  // existence, twice its own error is to be below the indentation and the openings next to it.
+  bool shows(std::size_t k, std::size_t i) const;
+  // Of the indentation in run k at an event, m: the median of its differences to this run.
+  double own_error(std::size_t k, std::size_t event) const;
   void set_deltas();
   static double median_around(std::size_t i, std::size_t n,
                               const std::function<std::optional<double>(std::size_t)>& value);

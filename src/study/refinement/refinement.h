@@ -12,7 +12,7 @@ inline constexpr double default_share_of_contact = 0.1;
 inline constexpr double usual_growth = 2.5;
 
 /// Work of a run and of those beside it over that of the run.
-inline constexpr double work_with_others = 2.4;
+inline constexpr double work_with_others = 1.8;
 
 /// A case on finer and finer meshes, with the accuracy in time that goes with each: the default
 /// step of the mesh or, where the contact limits the step, one that shrinks as the mesh does; rtol

@@ -102,7 +102,11 @@ class Search {
         obstacle_ = {Reason::Kind::failed_run, level.result.outcome.message};
         break;
       }
+      const bool grows = best_ && level.result.n_certain() > best_->result.n_certain();
       best_ = std::move(level);
+      if (!input_.accuracy.event_times) {
+        work_limit_ = grows ? work_limit_while_certainty_grows : default_work_limit;
+      }
       if (change_model()) {
         next = affordable_first(*refinement_, work_limit_);
         continue;
@@ -212,22 +216,28 @@ class Search {
   }
   bool is_met() const { return best_->result.all_certain() && largest_error() <= tolerance_; }
 
+  // Exponent with which work grows with the number of cells or elements: between the best run and
+  // the coarsest one beside it.
+  double growth_of_work() const {
+    if (best_->beside.empty()) return usual_growth;
+    const RunBeside& other = best_->beside.back();
+    const double sizes = static_cast<double>(mesh_count(best_->input)) / mesh_count(other.of.input);
+    if (!(sizes > 1.0)) return usual_growth;
+    const double works =
+        counted_work(best_->input, best_->result) / counted_work(other.of.input, other.result);
+    return std::clamp(std::log(works) / std::log(sizes), 1.0, 4.0);
+  }
+
   // Work of a level on a mesh finer by `ratio` than the best one, with the runs beside it.
   double work_of_next(double ratio) const {
-    double growth = usual_growth;
-    if (!best_->beside.empty()) {
-      const Level& level = *best_;
-      const RunBeside& other = level.beside.back();
-      const double sizes =
-          static_cast<double>(mesh_count(level.input)) / mesh_count(other.of.input);
-      if (sizes > 1.0) {
-        growth = std::log(counted_work(level.input, level.result) /
-                          counted_work(other.of.input, other.result)) /
-                 std::log(sizes);
-      }
-    }
     return work_with_others * counted_work(best_->input, best_->result) *
-           std::pow(ratio, std::clamp(growth, 1.0, 4.0));
+           std::pow(ratio, growth_of_work());
+  }
+
+  // The refinement that takes all the work that is left.
+  double affordable_ratio() const {
+    const double left = std::max(work_limit_ - work_, 0.0);
+    return std::pow(left / work_of_next(1.0), 1.0 / growth_of_work());
   }
 
   // Whether no level is affordable after this one, or none is to be expected.
@@ -260,16 +270,18 @@ class Search {
     if (const char* key = refinement_->fixed_key()) {
       return refuse(key, {Reason::Kind::fixed_key, key});
     }
-    double ratio = ratio_wanted();
-    while (work_ + work_of_next(ratio) > work_limit_ && ratio > least_refinement) {
-      ratio = std::max(least_refinement, 0.9 * ratio);
-    }
-    const double work = work_ + work_of_next(ratio);
-    if (work > work_limit_) {
+    const double affordable = affordable_ratio();
+    if (affordable < least_refinement) {
       using enum Reason::Kind;
       const auto kind = input_.accuracy.event_times ? work_limit : default_work_limit;
+      const double work = work_ + work_of_next(least_refinement);
       return refuse("accuracy.work_limit", {kind, {}, work_, work, work_limit_});
     }
+    // Where sub-impacts are uncertain, the last mesh is as fine as is affordable.
+    double ratio = std::min(ratio_wanted(), affordable);
+    const bool is_last =
+        work_of_next(ratio) + work_of_next(usual_refinement * ratio) > work_limit_ - work_;
+    if (!best_->result.all_certain() && is_last) ratio = affordable;
     std::optional<Case> finer = refinement_->finer(best_->input, ratio);
     if (!finer) return refuse(refinement_->size_key(), {Reason::Kind::finest_mesh});
     try {
@@ -409,7 +421,9 @@ WorkRange work_expected(const Case& first, const std::optional<OpenChoices>& ope
   const double steps = work_of_steps(first);
   const double level = steps + work_with_others * resolve(first).settings().decomposition;
   if (open && Refinement(first, *open).fixed_key() == nullptr) {
-    return {level, std::max(level, work_limit_of(first))};
+    const double most = first.accuracy.event_times ? first.accuracy.work_limit
+                                                   : work_limit_while_certainty_grows;
+    return {level, std::max(level, most)};
   }
   return {level, steps > 0.0 ? std::optional(level) : std::nullopt};
 }

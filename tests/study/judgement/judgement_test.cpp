@@ -70,6 +70,40 @@ TEST(AJudgement, TakesErrorsButNoDoubtFromARunThatDoesNotCountForExistence) {
   EXPECT_FALSE(*run.sub_impacts[2].certain);
 }
 
+// By a near run that agrees and a far one that lacks the fourth of seven contacts; all that both
+// have comes `later` in the far run.
+Result judged_beside_far_run_without_one(double later) {
+  Case input;
+  input.scene.striker.velocity = 1.0;
+  Result run = contacts(7), far = contacts(7, later);
+  run.outcome.time = far.outcome.time = 2e-3;
+  far.sub_impacts.erase(far.sub_impacts.begin() + 3);
+  std::vector<RunBeside> beside{{{input, ErrorSource::time, "a near run", 1.0}, run},
+                                {{input, ErrorSource::time, "a far run", 1.0}, far}};
+  beside.back().of.of_existence = false;
+  judge(input, run, beside);
+  return run;
+}
+
+TEST(AJudgement, DoubtsWhatAFarRunLacksOnlyWhereTwiceItsOwnErrorIsBelowIndentationAndOpenings) {
+  // Indentations and openings are of 100 us at 2 m/s: 100 and 50 um.
+  const Result near = judged_beside_far_run_without_one(10.0 * us);  // an error of 20 um
+  EXPECT_EQ(near.sub_impacts[3].doubt->kind, Reason::Kind::missing_beside);
+  EXPECT_EQ(near.n_certain(), 6u);
+  const Result far = judged_beside_far_run_without_one(14.0 * us);  // of 28 um
+  EXPECT_TRUE(*far.sub_impacts[3].certain) << words_of(far.sub_impacts[3].doubt);
+}
+
+// The end of a contact that nearly stays is known badly, but not whether there is a contact.
+TEST(AJudgement, JudgesTheLengthsBesideAGrazeByTheErrorsAroundIt) {
+  Result run = contacts(7), other = contacts(7, 1.0 * us);
+  run.sub_impacts[3].end_rate = -0.02;
+  *other.sub_impacts[3].end += 50.0 * us;
+  const Result found = judged(run, other);
+  EXPECT_GT(*found.sub_impacts[3].end_error, *run.sub_impacts[3].end - run.sub_impacts[3].start);
+  EXPECT_TRUE(*found.sub_impacts[3].certain) << words_of(found.sub_impacts[3].doubt);
+}
+
 TEST(AJudgement, DoesNotTakeAgreementByChanceForAccuracyOfAValue) {
   Result run = contacts(5), other = contacts(5);
   for (SubImpact& s : other.sub_impacts) s.impulse += 1e-3;

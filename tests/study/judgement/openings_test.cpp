@@ -90,7 +90,7 @@ TEST(AnOpeningBelowTheLimitThatItsErrorLeavesOnEitherSide, MakesTheJoinedContact
   EXPECT_FALSE(*found.sub_impacts[1].certain);
 }
 
-TEST(ARunWithManyUncertainSubImpacts, TellsHowManyWouldBeCertainWereTheyJoined) {
+TEST(ARunWithUncertainSubImpacts, TellsHowManyWouldBeCertainWereTheyJoined) {
   const Result run = contacts({0.1 * um, 50 * um});
   Result other = contacts({0.1 * um, 50 * um});
   join_sub_impacts(other.sub_impacts, 1 * um);
@@ -99,6 +99,15 @@ TEST(ARunWithManyUncertainSubImpacts, TellsHowManyWouldBeCertainWereTheyJoined) 
   ASSERT_TRUE(found.error_estimate->joined);
   EXPECT_EQ(found.error_estimate->joined->n, 1u);
   EXPECT_EQ(found.error_estimate->joined->n_certain, 1u);
+  // Two of ten.
+  const std::vector<double> more(8, 50 * um);
+  std::vector<double> openings{0.1 * um};
+  openings.insert(openings.end(), more.begin(), more.end());
+  Result parted = contacts(openings), closed = parted;
+  join_sub_impacts(closed.sub_impacts, 1 * um);
+  const Result few = judged(parted, closed);
+  EXPECT_LT(few.sub_impacts.size() - *few.n_certain(), 3u);
+  EXPECT_EQ(few.error_estimate->joined->n_certain, few.error_estimate->joined->n);
   EXPECT_FALSE(judged(run, run).error_estimate->joined);
   EXPECT_FALSE(judged(run, other, 1 * um).error_estimate->joined);
 }

@@ -49,12 +49,13 @@ def finer_peaks(case, result, ratio):
 
 def study_scene(arguments):
     writer, seed, number, with_peaks = arguments
-    row = {"number": number, "refused": "", "seconds": 0.0, "peaks": {}}
+    row = {"number": number, "refused": "", "seconds": 0.0, "sub_impacts": 0, "certain": 0, "peaks": {}}
     try:
         case = open_case(writer, seed, number)
         begun = time.process_time()
         result = si.run(case)
         row["seconds"] = time.process_time() - begun
+        row["sub_impacts"], row["certain"] = len(result.sub_impacts), int(result.sub_impacts["certain"].sum())
     except si.CaseError as error:
         row["refused"] = str(error)
         return row
@@ -78,6 +79,9 @@ def print_rows(rows, verbose):
     taken = sorted((row["seconds"], row["number"]) for row in rows if not row["refused"])
     print(f"{len(rows)} scenes, {len(refused)} refused, {sum(seconds > LONG for seconds, _ in taken)} above {LONG:.0f} s "
           f"of a processor; longest: " + ", ".join(f"{seconds:.1f} s (scene {number})" for seconds, number in taken[:-6:-1]))
+    if taken:
+        print(f"median {taken[len(taken) // 2][0]:.2f} s, sum {sum(seconds for seconds, _ in taken):.0f} s; "
+              f"{sum(row['certain'] for row in rows)} of {sum(row['sub_impacts'] for row in rows)} sub-impacts certain")
     for row in refused:
         print(f"  scene {row['number']} refused: {row['refused'][:150]}")
     for name in PEAKS:

@@ -116,11 +116,10 @@ class Truth {
     return in_coarse_.of[static_cast<std::size_t>(fine - fine_.sub_impacts.data())];
   }
   double limit(double fine, double coarse) const { return fine + (fine - coarse) / share_; }
-  // Nothing if the total is not settled between the two meshes.
-  std::optional<double> total(std::size_t k) const {
-    if (!fine_.error_estimate || !coarse_.error_estimate) return std::nullopt;
-    const double fine = fine_.error_estimate->totals.at(k).total.value;
-    return limit(fine, coarse_.error_estimate->totals.at(k).total.value);
+  // Nothing if either of the meshes has no such total.
+  std::optional<double> total(RunTotal name) const {
+    const std::optional<double> fine = total_in(fine_, name), coarse = total_in(coarse_, name);
+    return fine && coarse ? std::optional(limit(*fine, *coarse)) : std::nullopt;
   }
 
  private:
@@ -130,6 +129,12 @@ class Truth {
     const RunBeside itself{{input, ErrorSource::time, "itself", 1.0}, run};
     judge(input, run, {&itself, 1});
     return run;
+  }
+  static std::optional<double> total_in(const Result& run, RunTotal name) {
+    if (!run.error_estimate) return std::nullopt;
+    const auto& totals = run.error_estimate->totals;
+    const auto found = std::ranges::find(totals, name, &NamedTotal::name);
+    return found == totals.end() ? std::nullopt : std::optional(found->total.value);
   }
   static int count_within(const Result& run, const SubImpact& s) {
     const auto overlaps = [&](const SubImpact& other) {
@@ -204,12 +209,11 @@ Findings study(const DrawnScene& scene, const Result& run) {
     ++outcome.certain_sets;
     outcome.lacking_sets += truth.fine().sub_impacts.size() != run.sub_impacts.size();
   }
-  for (std::size_t k = 0; k < run.error_estimate->totals.size(); ++k) {
-    const auto& [name, total] = run.error_estimate->totals[k];
+  for (const auto& [name, total] : run.error_estimate->totals) {
     if (total.error && total.value != 0.0) {
       outcome.widths[name].push_back(*total.error / std::abs(total.value));
     }
-    const std::optional<double> limit = truth.total(k);
+    const std::optional<double> limit = truth.total(name);
     if (limit && total.error) {
       outcome.totals[name].add(std::abs(total.value - *limit), *total.error);
     }

@@ -45,9 +45,10 @@ double counted_work(const Case& input, const Result& result);
 
 /// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
 /// (ResolvedSettings::contact_time), and the work is limited to this: some 2 s of a processor.
-/// Three times as much makes few sub-impacts more certain (of the published strike 17 of 19 instead
-/// of 16).
 constexpr double default_work_limit = 1e9;
+/// The limit after a mesh on which more sub-impacts are certain than on the one before, while some
+/// are not: some 5 s by the clock on two cores.
+constexpr double work_limit_while_certainty_grows = 4.5e9;
 
 /// If a beam bends elastically: elements (Hermite, or spectral with shear) in natural modes, by the
 /// exponential method (fourth order in the mesh, almost no error in time). If sections yield: cells
@@ -80,7 +81,8 @@ struct WithinRun {
 /// Runs a case on finer and finer meshes, each together with the cases that judge it, until all
 /// sub-impacts are certain, no others are possible, and all event times are within
 /// accuracy.event_times. The next mesh follows from the stated errors and the order of the mesh,
-/// and the counted work so far decides whether it is affordable. Neither depends on measured time
+/// and the counted work so far decides whether it is affordable. While sub-impacts are uncertain,
+/// the last mesh is as fine as is affordable at once. Neither depends on measured time
 /// or on the number of jobs. Runs that are not expected to be the last keep no rows.
 /// Result::tolerance states whether this is met and, if not, why, and which key of the case
 /// prevents it. Result::choice gives the reason for the choice. A stopped search returns the run on
