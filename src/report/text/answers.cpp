@@ -255,7 +255,7 @@ constexpr const char* words_of_reasons[] = {
     "striker and beam are in contact at the end",
     "striker and beam approach each other at the end",
     "striker and beam met at rest",
-    "few sub-impacts are uncertain",
+    "no sub-impact is uncertain",
     "no contact without end is found",
     "it does not move or bend",
     "it stays elastic",

@@ -9,6 +9,7 @@
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/settings/methods.h"
+#include "study/judgement/mesh_resolution.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/case/case_keys.h"
@@ -18,13 +19,12 @@
 namespace subimpact {
 namespace {
 
-// Sizes of the meshes beside, over that of the case. A near mesh has the same sub-impacts: the
-// coarser one, the lower the order at which meshes converge.
-constexpr double near_size = 0.7;
-constexpr double near_size_of_high_order = 0.85;
-// A far mesh shows errors that near ones share, but it lacks some of their sub-impacts.
+// Sizes of the meshes beside, over that of the case. Near ones have the same sub-impacts; the far
+// one shows errors that near meshes share, but it may lack some of them.
+constexpr double near_size = 0.85;
+constexpr double next_size = 0.7;
 constexpr double far_size = 0.5;
-// Used where a near mesh is refused, for strikes too close to an end for a coarser one.
+// Used where coarser ones are refused, for strikes too close to an end.
 constexpr double finer_sizes[] = {1.2, 1.45};
 constexpr double most_gain = 2.0;  // of differences
 constexpr double looser = 10.0;    // rtol, for a mesh of 0.7 and in time alone
@@ -58,6 +58,7 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
     // part of the difference is chance.
     const double order = std::max(mesh_order(input).value_or(2), 2);
     beside.gain = std::min(most_gain, 1.0 / std::abs(std::pow(ratio, order) - 1.0));
+    beside.of_existence = size > far_size;
     beside.input.output = output_beside(input);
     beside.input.accuracy.energy = 1.0;  // what it loses shows in the difference
     // For a run in natural modes only the case can be refused, and resolving it would take most of
@@ -81,10 +82,16 @@ std::optional<CaseBeside> in_mesh_and_time(double size, const Case& input) {
   if (input.solver.step) {
     solver.step = *input.solver.step / size;
   } else if (!has_fixed_step(input)) {
-    const double exponent = std::log(size) / std::log(near_size);
+    const double exponent = std::log(size) / std::log(next_size);
     solver.rtol = std::min(std::pow(looser, exponent) * solver.rtol, loosest);
   }
   return beside;
+}
+
+// Natural modes, which are of high order, are not resolved for this.
+bool is_ample(const Case& input) {
+  return input.solver.method != Method::exponential &&
+         resolves_amply(input, resolve(input).settings().contact_time);
 }
 
 // Where central differences on twice as many cells take less time than other methods on these.
@@ -122,13 +129,11 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
   const auto include = [&](double size) {
     if (auto beside = in_mesh_and_time(size, input)) all.push_back(std::move(*beside));
   };
-  include(mesh_order(input).value_or(2) > 2 ? near_size_of_high_order : near_size);
-  if (all.empty()) {
-    std::ranges::for_each(finer_sizes, include);
-  } else if (auto far = in_mesh_and_time(far_size, input)) {
-    far->of_existence = false;
-    all.push_back(std::move(*far));
-  }
+  std::optional<CaseBeside> far = in_mesh_and_time(far_size, input);
+  include(near_size);
+  if (!far || !is_ample(input)) include(next_size);
+  if (far) all.push_back(std::move(*far));
+  if (all.size() < 2) std::ranges::for_each(finer_sizes, include);
   if (!all.empty()) return all;
   all = cases_beside_in_time(input);
   // If no other mesh allows the strike, effects that the mesh does not show still count as
@@ -140,7 +145,7 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
   std::vector<CaseBeside> all = cases_beside_in_time(input);
   std::optional<CaseBeside> mesh = on_finer_cells(input);
-  if (!mesh) mesh = in_mesh_and_time(near_size, input);
+  if (!mesh) mesh = in_mesh_and_time(next_size, input);
   if (mesh) {
     mesh->source = ErrorSource::mesh;
     mesh->of_rows = false;
@@ -151,11 +156,10 @@ std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
 
 std::vector<CaseBeside> cases_beside_by_part(const Case& input) {
   std::vector<CaseBeside> all = cases_beside_in_time(input);
-  for (const double size : {near_size_of_high_order, near_size, far_size}) {
+  for (const double size : {near_size, next_size, far_size}) {
     std::optional<CaseBeside> beside = on_mesh_of(size, input);
     if (!beside) continue;
     beside->source = ErrorSource::mesh;
-    beside->of_existence = size != far_size;
     all.push_back(std::move(*beside));
   }
   const bool has_layers = descriptor_of(input.model.section).has_layers && !input.parts.section;

@@ -11,11 +11,14 @@ namespace subimpact {
 namespace {
 
 // Safety factors, measured on random scenes: the tables of validation/truth/judgement.
-constexpr double time_safety = 2.4;
-constexpr double value_safety = 2.8;
+constexpr double time_safety = 2.7;
+constexpr double value_safety = 3.2;
 constexpr double margin_safety = 2.5;
-constexpr double existence_safety = 0.75;
-constexpr double free_end_safety = 4.0;  // safety factor of the error left by free ends
+constexpr double existence_safety = 0.8;
+// Of a difference, where a far run shows the sub-impact too: the rest is chance.
+constexpr double most_gain_beside_far = 1.4;
+constexpr double most_over_median = 2.0;  // of the error of a time that makes a length uncertain
+constexpr double free_end_safety = 4.0;   // safety factor of the error left by free ends
 constexpr double depth_safety = 0.5;
 constexpr double own_error_factor = 2.0;
 constexpr double steepest = 1.5;  // slope of a contact law over that of the secant, at most
@@ -80,11 +83,12 @@ double Judge::time_error(std::size_t event) const {
 }
 
 double Judge::usual_time_error(std::size_t event) const {
+  if (!resolves_amply(input_, run_.used.contact_time)) return time_error(event);
   const double around =
       median_around(event, events_.size(), [&](std::size_t e) -> std::optional<double> {
         return e > 0 && events_[e].known ? std::optional(time_error(e)) : std::nullopt;
       });
-  return std::min(time_error(event), around);
+  return std::min(time_error(event), most_over_median * around);
 }
 
 double Judge::value_error(std::size_t i, const Value& value, double least) const {
@@ -198,7 +202,7 @@ void Judge::set_events() {
       if (!there) continue;
       const auto include = [&](Event& event, double time) {
         event.known = true;
-        event.error = std::max(event.error, beside_[k].of.gain * std::abs(event.time - time));
+        event.error = std::max(event.error, gain(k, i) * std::abs(event.time - time));
       };
       include(start, there->start);
       if (all_[i].end && there->end) include(end, *there->end);
@@ -210,6 +214,15 @@ const SubImpact* Judge::shown_by(std::size_t k, std::size_t i) const {
   const Partner& partner = partners_[k].of[i];
   if (stopped_before(k, run_.end_of(all_[i]))) return nullptr;
   return partner.alone || beside_[k].of.of_existence ? partner.there : nullptr;
+}
+
+double Judge::gain(std::size_t k, std::size_t i) const {
+  const double full = beside_[k].of.gain;
+  for (std::size_t far = 0; far < beside_.size(); ++far) {
+    const bool is_far = !beside_[far].of.of_existence;
+    if (is_far && shown_by(far, i)) return std::min(full, most_gain_beside_far);
+  }
+  return full;
 }
 
 bool Judge::shows(std::size_t k, std::size_t i) const {
@@ -255,7 +268,7 @@ std::optional<double> Judge::difference(std::size_t i, const Value& value) const
     const SubImpact* there = shown_by(k, i);
     const std::optional<double> of_other = there ? value(*there) : std::nullopt;
     if (!of_run || !of_other) continue;
-    const double here = beside_[k].of.gain * std::abs(*of_run - *of_other);
+    const double here = gain(k, i) * std::abs(*of_run - *of_other);
     largest = std::max(largest.value_or(0.0), here);
   }
   return largest;
@@ -269,7 +282,7 @@ std::optional<double> Judge::opening_difference(std::size_t i) const {
     const bool is_last = there == &beside_[k].result.sub_impacts.back();
     const SubImpact* next = i + 1 < all_.size() ? partners_[k].of[i + 1].there : nullptr;
     if (next != (is_last ? nullptr : there + 1)) continue;
-    const double here = beside_[k].of.gain * std::abs(*all_[i].opening - *there->opening);
+    const double here = gain(k, i) * std::abs(*all_[i].opening - *there->opening);
     largest = std::max(largest.value_or(0.0), here);
   }
   return largest;
@@ -295,10 +308,10 @@ double Judge::flight_end(std::size_t i) const {
 
 double Judge::margin_error(const NearMiss& here, double length, double delta) const {
   double error = 0.0;
-  for (const std::size_t k : of_existence_) {
-    const RunBeside& other = beside_[k];
-    const double safety = margin_safety * runs_factor_;
-    double distance = near_share * length, difference = delta / safety;
+  const double safety = margin_safety * runs_factor_;
+  for (const RunBeside& other : beside_) {
+    double distance = near_share * length;
+    double difference = other.of.of_existence ? delta / safety : 0.0;
     const auto include = [&](double time, double margin) {
       if (std::abs(time - here.time) > distance) return;
       distance = std::abs(time - here.time);

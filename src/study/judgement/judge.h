@@ -75,12 +75,16 @@ class Judge {
     bool known = false;
   };
 
-  // At most the median of those around it: a graze is known by its depth, not by its time.
+  // Where the mesh is fine, at most twice the median of those around it: a graze is known by its
+  // depth, not by its time.
   double usual_time_error(std::size_t event) const;
   static Partners partners_in(const Result& run, const Result& other);
   void set_events();
   // The sub-impact of a run beside that shows errors of one; none: it has none.
   const SubImpact* shown_by(std::size_t k, std::size_t i) const;
+  // Of a difference of that sub-impact to a run beside: more of it is error where no far run has
+  // it.
+  double gain(std::size_t k, std::size_t i) const;
   // Whether a run beside would have sub-impact i if there were one: where it does not count for
   // existence, twice its own error is to be below the indentation and the openings next to it.
   bool shows(std::size_t k, std::size_t i) const;
@@ -105,8 +109,8 @@ class Judge {
   // Run k shows something else, or stopped.
   Reason reason_beside(Reason::Kind kind, std::size_t k) const;
   // Error of the margin of a near miss, within a contact or flight of that length: from the
-  // differences of the margin in the runs beside, or from the error of the indentation if one of
-  // them lacks this near miss.
+  // differences of the margin in the runs beside, or from the error of the indentation if one that
+  // counts for existence lacks this near miss.
   double margin_error(const NearMiss& here, double length, double delta) const;
   // Whether errors leave open if the contacts before and after an opening count as one.
   std::optional<Reason> doubt_by_joining(std::size_t i) const;

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double cells_per_wave = 8.0;
 constexpr double fewest_cells = 64.0;
+constexpr double ample = 2.5;  // of the parts that resolve contacts
+constexpr int low_order = 2;
 
 double cells_of_a_part(const Case& input) {
   switch (input.model.mesh) {
@@ -116,6 +118,12 @@ int parts_that_resolve(const Case& input, double contact_time, double most_cells
   const double wave = 2.0 * std::sqrt(M_PI * wave_constant(beam) * contact_time);
   const double cells = std::clamp(cells_per_wave * beam.length / wave, fewest_cells, most_cells);
   return static_cast<int>(cells / cells_of_a_part(input));
+}
+
+bool resolves_amply(const Case& input, double contact_time) {
+  const std::optional<int> order = mesh_order(input);
+  return order && *order <= low_order &&
+         mesh_count(input) >= ample * parts_that_resolve(input, contact_time);
 }
 
 double shortest_contact_shown(const Case& input) {

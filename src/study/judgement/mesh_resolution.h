@@ -18,6 +18,9 @@ namespace subimpact {
 /// Number of parts over the whole length that puts eight cells into the waves of contacts as short
 /// as `contact_time` (s), from 64 cells to `most_cells`.
 int parts_that_resolve(const Case& input, double contact_time, double most_cells = 1e9);
+/// Whether half of a mesh of low order still resolves them: then one run on a near mesh tells as
+/// much about existence as two (validation/truth/judgement).
+bool resolves_amply(const Case& input, double contact_time);
 /// The most that the program chooses without having run the case.
 constexpr double most_cells_at_first = 2000.0;
 /// The most that the program chooses for a strike near an end, or a light striker.

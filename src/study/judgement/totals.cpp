@@ -12,10 +12,10 @@ namespace subimpact {
 namespace {
 
 // Safety factors, measured on random scenes: the tables of validation/truth/judgement.
-constexpr double usual_safety = 2.7;
-constexpr double safety_of_beam_velocity = 3.5;
-constexpr double safety_of_dissipated = 4.0;
-constexpr double safety_of_largest = 5.0;          // of the force and of the indentation
+constexpr double usual_safety = 3.8;
+constexpr double safety_of_beam_velocity = 5.0;
+constexpr double safety_of_dissipated = 5.5;
+constexpr double safety_of_largest = 7.0;          // of the force and of the indentation
 constexpr std::nullopt_t as_it_is = std::nullopt;  // of counts: the error is the difference itself
 // Relative error of the largest strain above which no error is stated: where a hinge forms, strains
 // grow without limit on finer meshes.

@@ -19,8 +19,8 @@ double largest_magnitude(const std::vector<Row>& rows, Value value) {
 }
 
 /// Sets the totals of an error estimate: numbers of the run as a whole, each with the largest of
-/// 2.7 gain |difference| over the runs beside it, summed over the parts (mean velocity of the beam:
-/// 3.5, dissipated energy: 4, largest force and indentation: 5; 1.5 times more for a part of one
+/// 3.8 gain |difference| over the runs beside it, summed over the parts (mean velocity of the beam:
+/// 5, dissipated energy: 5.5, largest force and indentation: 7; 1.5 times more for a part of one
 /// run). That of the largest displacement, moment or strain is at least what another place may
 /// exceed it by, to first order in the mesh (validation/truth/defaults). The error of a number of
 /// sub-impacts is that of sub-impacts and flights that are not certain, and where there are any at

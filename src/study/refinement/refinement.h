@@ -11,8 +11,9 @@ inline constexpr double default_share_of_contact = 0.1;
 /// Exponent with which the work of a run grows with the number of cells or elements, usually.
 inline constexpr double usual_growth = 2.5;
 
-/// Work of a run and of those beside it over that of the run.
-inline constexpr double work_with_others = 1.8;
+/// Work of a run and of those beside it over that of the run; on fine meshes of low order.
+inline constexpr double work_with_others = 2.4;
+inline constexpr double work_with_others_if_fine = 2.0;
 
 /// A case on finer and finer meshes, with the accuracy in time that goes with each: the default
 /// step of the mesh or, where the contact limits the step, one that shrinks as the mesh does; rtol

@@ -217,7 +217,8 @@ class Search {
   bool is_met() const { return best_->result.all_certain() && largest_error() <= tolerance_; }
 
   // Exponent with which work grows with the number of cells or elements: between the best run and
-  // the coarsest one beside it.
+  // the coarsest one beside it. Where contact limits the steps of a coarse mesh, the next mesh
+  // does.
   double growth_of_work() const {
     if (best_->beside.empty()) return usual_growth;
     const RunBeside& other = best_->beside.back();
@@ -225,12 +226,14 @@ class Search {
     if (!(sizes > 1.0)) return usual_growth;
     const double works =
         counted_work(best_->input, best_->result) / counted_work(other.of.input, other.result);
-    return std::clamp(std::log(works) / std::log(sizes), 1.0, 4.0);
+    return std::clamp(std::log(works) / std::log(sizes), 2.0, 4.0);
   }
 
   // Work of a level on a mesh finer by `ratio` than the best one, with the runs beside it.
   double work_of_next(double ratio) const {
-    return work_with_others * counted_work(best_->input, best_->result) *
+    const double with_others =
+        refinement_->order() > 2.0 ? work_with_others : work_with_others_if_fine;
+    return with_others * counted_work(best_->input, best_->result) *
            std::pow(ratio, growth_of_work());
   }
 
@@ -421,8 +424,8 @@ WorkRange work_expected(const Case& first, const std::optional<OpenChoices>& ope
   const double steps = work_of_steps(first);
   const double level = steps + work_with_others * resolve(first).settings().decomposition;
   if (open && Refinement(first, *open).fixed_key() == nullptr) {
-    const double most = first.accuracy.event_times ? first.accuracy.work_limit
-                                                   : work_limit_while_certainty_grows;
+    const double most =
+        first.accuracy.event_times ? first.accuracy.work_limit : work_limit_while_certainty_grows;
     return {level, std::max(level, most)};
   }
   return {level, steps > 0.0 ? std::optional(level) : std::nullopt};

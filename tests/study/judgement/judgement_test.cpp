@@ -48,7 +48,7 @@ TEST(AJudgement, CallsCertainWhatAgreesAndStatesMoreThanTheDifference) {
   const Result run = judged(contacts(3), contacts(3, 0.5 * us));
   EXPECT_TRUE(run.all_certain());
   EXPECT_EQ(run.sub_impacts[0].start_error, 0.0);
-  EXPECT_NEAR(*run.sub_impacts[1].start_error, 2.4 * 0.5 * us, 1e-12);
+  EXPECT_NEAR(*run.sub_impacts[1].start_error, 2.7 * 0.5 * us, 1e-12);
   const Result by_one = judged(contacts(3), contacts(3, 0.5 * us), 1);
   EXPECT_NEAR(*by_one.sub_impacts[1].start_error, 1.5 * *run.sub_impacts[1].start_error, 1e-12);
 }
@@ -64,7 +64,7 @@ TEST(AJudgement, TakesErrorsButNoDoubtFromARunThatDoesNotCountForExistence) {
   beside.back().of.of_existence = false;
   judge(input, run, beside);
   EXPECT_TRUE(run.all_certain());
-  EXPECT_NEAR(*run.sub_impacts[1].start_error, 2.4 * 0.8 * us, 1e-12);
+  EXPECT_NEAR(*run.sub_impacts[1].start_error, 2.7 * 0.8 * us, 1e-12);
   beside.back().of.of_existence = true;
   judge(input, run, beside);
   EXPECT_FALSE(*run.sub_impacts[2].certain);
@@ -109,7 +109,7 @@ TEST(AJudgement, DoesNotTakeAgreementByChanceForAccuracyOfAValue) {
   for (SubImpact& s : other.sub_impacts) s.impulse += 1e-3;
   other.sub_impacts[2].impulse = run.sub_impacts[2].impulse;
   const Result found = judged(run, other);
-  EXPECT_NEAR(*found.sub_impacts[2].impulse_error, 2.8e-3, 1e-12);
+  EXPECT_NEAR(*found.sub_impacts[2].impulse_error, 3.2e-3, 1e-12);
 }
 
 TEST(AJudgement, HearsNothingFromARunBeyondWhereItStopped) {

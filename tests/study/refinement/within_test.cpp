@@ -163,7 +163,7 @@ TEST(AWish, OfAYieldingBeamIsCertainOfWhatAFineMeshHas) {
   Case input = wishing(1e-7, SectionKind::exact, 3e-3);
   input.accuracy.work_limit = 1.5e8;
   const WithinRun found = simulate_within(input, {});
-  ASSERT_LT(mesh_count(found.input), 2000);
+  ASSERT_LT(mesh_count(found.input), 2100);
   Case fine = found.input;
   fine.model.segments = 8001;
   const Result right = simulate(fine);
@@ -329,16 +329,33 @@ TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
 TEST(CasesBeside, AreCoarserInMeshAndTime) {
   Case input = paper_run(SectionKind::exact, 1e-3, 401, Method::central_difference);
   const std::vector<CaseBeside> cases = cases_beside(input);
-  ASSERT_EQ(cases.size(), 2u);
+  ASSERT_EQ(cases.size(), 3u);
   EXPECT_EQ(cases[0].input.model.segments, 341);
-  EXPECT_EQ(cases[1].input.model.segments, 201);
-  EXPECT_TRUE(cases[0].of_existence);
-  EXPECT_FALSE(cases[1].of_existence);
+  EXPECT_EQ(cases[1].input.model.segments, 281);
+  EXPECT_EQ(cases[2].input.model.segments, 201);
+  EXPECT_TRUE(cases[1].of_existence);
+  EXPECT_FALSE(cases[2].of_existence);
   EXPECT_EQ(cases[1].source, ErrorSource::mesh_and_time);
   EXPECT_GT(*resolve(cases[1].input).settings().step, 1.05 * *resolve(input).settings().step);
   input.solver.method = Method::erk;
   input.solver.rtol = 1e-7;
   EXPECT_NEAR(cases_beside(input).at(1).input.solver.rtol, 1e-6, 1e-12);
+}
+
+TEST(CasesBeside, OfAMeshThatResolvesContactsTwiceAreOneNearAndOneFar) {
+  const Case fine = paper_run(SectionKind::exact, 1e-3, 2001, Method::central_difference);
+  const std::vector<CaseBeside> cases = cases_beside(fine);
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].input.model.segments, 1701);
+  EXPECT_EQ(cases[1].input.model.segments, 1001);
+  EXPECT_TRUE(cases[0].of_existence);
+  EXPECT_FALSE(cases[1].of_existence);
+  Case elastic = fine;
+  elastic.model.section = SectionKind::elastic;
+  elastic.model.mesh = MeshKind::hermite;
+  elastic.model.elements = 2000;
+  elastic.solver.method = Method::exponential;
+  EXPECT_EQ(cases_beside(elastic).size(), 3u);
 }
 
 TEST(CasesBeside, OfARigidBeamAreCoarserInTimeAlone) {

@@ -20,7 +20,8 @@ struct CaseBeside {
   double gain = 1.0;
   /// Whether errors of sub-impacts include this part; if not, only errors of totals do.
   bool of_rows = true;
-  /// Whether a certain sub-impact must exist in this run; if not, the run shows errors only.
+  /// Whether a certain sub-impact must exist in this run; if not, only where twice the run's own
+  /// error is below the indentation and the openings next to it.
   bool of_existence = true;
 };
 
@@ -37,10 +38,10 @@ struct RunBeside {
   Result result;
 };
 
-/// The cases beside a case that show the error of its mesh and of its integration in time together:
-/// meshes coarser by the factors 0.85 and 0.7, and by 0.5 for errors only, with a matching accuracy
-/// in time; finer by 1.2 and 1.45 if the strike is too near an end for coarser ones. If the mesh
-/// cannot be coarser, they differ in time only.
+/// The cases beside a case that show the error of its mesh and of its integration in time together,
+/// with a matching accuracy in time: on meshes coarser by the factors 0.85, 0.7 (unless sections
+/// may yield and the mesh resolves contacts 2.5 times) and 0.5; finer by 1.2 and 1.45 if the strike
+/// is too near an end for coarser ones. If the mesh cannot be coarser, they differ in time only.
 std::vector<CaseBeside> cases_beside(const Case& input);
 /// The cases that show the error in time only, on the mesh of the case.
 std::vector<CaseBeside> cases_beside_in_time(const Case& input);
@@ -58,15 +59,17 @@ std::vector<CaseBeside> cases_beside_by_part(const Case& input);
 /// the sub-impact), doubt and errors of its sub-impacts, and Result::error_estimate with the totals
 /// (docs/theory.md, "Error estimates"; measured in validation/truth/judgement). e: the largest gain
 /// |difference| over the runs beside; d: the median of e |indentation rate| over seven events.
-/// Errors: for a time 2.4 max(e, d/rate), at least the bound due to free ends; for a value 2.8
+/// Errors: for a time 2.7 max(e, d/rate), at least the bound due to free ends; for a value 3.2
 /// times its e, at least the median of seven; for totals see set_totals(). A sub-impact is certain
-/// if each run that counts for existence has one counterpart, if 0.75 d is below its indentation
-/// and the openings of the gap next to it, if its errors are below its duration and the
-/// separations, and if near misses within it keep margins above 2.5 e; after an uncertain one of
-/// its sub-zone, errors count 1.5 times. Near misses decide whether a flight is certain. Where only
-/// one run shows a part, factors are 1.5 times as large. Contact is over if this is proven for all
-/// runs that count for existence and the final velocities of their strikers differ by less than 2.5
-/// % of the strike's. Several parts are judged one by one; errors are the sums.
+/// if each run that counts for existence has one counterpart, as has any other whose own error is
+/// small enough, if 0.8 d is below its indentation and the openings of the gap next to it, if its
+/// errors (at most twice the median of seven) are below its duration and the separations, and if
+/// near misses within it keep margins above 2.5 e; after an uncertain one of its sub-zone, errors
+/// count 1.5 times. Near misses
+/// decide whether a flight is certain. Where only one run shows a part, factors are 1.5 times as
+/// large. Contact is over if this is proven for all runs that count for existence and the final
+/// velocities of their strikers differ by less than 2.5 % of the strike's. Several parts are judged
+/// one by one; errors are the sums.
 void judge(const Case& input, Result& run, std::span<const RunBeside> beside);
 
 /// Number of threads for parallel runs; results do not depend on it.

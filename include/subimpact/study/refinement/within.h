@@ -48,7 +48,7 @@ double counted_work(const Case& input, const Result& result);
 constexpr double default_work_limit = 1e9;
 /// The limit after a mesh on which more sub-impacts are certain than on the one before, while some
 /// are not: some 5 s by the clock on two cores.
-constexpr double work_limit_while_certainty_grows = 4.5e9;
+constexpr double work_limit_while_certainty_grows = 7e9;
 
 /// If a beam bends elastically: elements (Hermite, or spectral with shear) in natural modes, by the
 /// exponential method (fourth order in the mesh, almost no error in time). If sections yield: cells
