@@ -201,7 +201,7 @@ std::vector<Option> options_of(RunOptions& options) {
   options.input.may_repeat = true;
   Option error_bars = {
       "--error-bars", &options.error_bars,
-      "By default all errors are estimated from runs on three coarser meshes, which take "
+      "By default all errors are estimated from runs on coarser meshes, which take up to "
       "one and a half times as long as the run itself. --error-bars=off: no estimate. "
       "--error-bars: from other runs for each of time, mesh and layers; takes about 4 "
       "times as long. --error-bars=time: of the integration in time only, about twice as long"};
