@@ -143,6 +143,9 @@ Problem problem_of(const Case& given) {
   if (input.scene.beam.is_sprung()) problem.mesh = on_springs(input, std::move(problem.mesh));
   problem.contact_law = contact_law_of(given);
   problem.contact_damping = input.scene.contact_damping();
+  if (input.scene.contact.restitution) {
+    problem.restitution_velocity = input.scene.bodies().velocity_scale();
+  }
   problem.check_contact_law = input.parts.contact_law != nullptr;
   problem.may_yield = may_yield(input);
   problem.start = input.parts.start;

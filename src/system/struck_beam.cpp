@@ -9,7 +9,7 @@ namespace subimpact {
 StruckBeam::StruckBeam(StruckBeamParts parts)
     : mesh_(std::move(parts.mesh)),
       sections_(std::move(parts.sections)),
-      contact_(std::move(parts.contact_law), parts.contact_damping),
+      contact_(std::move(parts.contact_law), parts.contact_damping, parts.restitution_velocity),
       mass_solver_(std::move(parts.mass_solver)),
       n_(mesh_->n_unknowns()),
       striker_mass_(parts.striker_mass),

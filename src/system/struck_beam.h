@@ -31,6 +31,7 @@ struct StruckBeamParts {
   Loads loads = {};
   double velocity_scale = 0.0;          ///< m/s, of the strike; 0: striker_velocity
   std::optional<Tension> tension = {};  ///< of a beam whose ends are held along it; not in modes
+  double restitution_velocity = 0.0;    ///< m/s, as of a Problem
 };
 
 /// Quantities integrated over time since the run began: energy (J) that velocity-dependent forces

@@ -248,8 +248,8 @@ struct Contact {
   std::optional<double> beam_poisson;     ///< nu
   /// chi, s/m: F = K lambda^n (1 + chi lambda') (hertz, linear; Hunt and Crossley 1975)
   double damping = 0.0;
-  /// e, in place of chi: the coefficient of restitution of two rigid bodies that meet as fast as
-  /// striker and beam first do.
+  /// e, in place of chi: the coefficient of restitution of two rigid bodies at each touch, from
+  /// which chi follows anew (ContactState::touch).
   std::optional<double> restitution = {};
   /// p_y, Pa: contact pressure at which the softer body yields; by default 1.6 Y (sphere), 1.67 Y
   /// (line).

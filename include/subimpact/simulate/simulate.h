@@ -28,6 +28,9 @@ struct Problem {
   std::shared_ptr<const ContactLaw> contact_law;
   /// chi, s/m: the contact force is F (1 + chi lambda'), with F of a law that never yields.
   double contact_damping = 0.0;
+  /// m/s: contact_damping is that of touches as fast, and others have what leaves the same
+  /// coefficient of restitution; 0: all touches have the same.
+  double restitution_velocity = 0.0;
   std::optional<Fibres> section;  ///< empty: the solid rectangle
   bool may_yield = true;          ///< whether sections yield, at the yield stress of the beam
   bool check_contact_law = true;  ///< whether a run begins with broken_rule(*contact_law)

@@ -360,7 +360,7 @@ std::vector<CaseKey> make_case_keys() {
     row("contact.unloading_indentation", "m", not_negative, "indentations of a measured unloading from the last point of loading, rising from the one that remains", "none: elastic", AT(scene.contact.unloading_indentation)),
     row("contact.unloading_force", "N", not_negative, "forces at these indentations, rising from 0", "none: elastic", AT(scene.contact.unloading_force)),
     row("contact.damping", "s/m", not_negative, "damping chi of the laws \"hertz\" and \"linear\": the force is that of the law times 1 + chi times the rate of the indentation (Hunt and Crossley)", as_in_case, AT(scene.contact.damping)),
-    row("contact.restitution", "", between("from 0.1 to 1", 0.1, 1.0), "coefficient of restitution of two rigid bodies that meet at the velocity of the first touch, for \"hertz\" and \"linear\": sets contact.damping", "none", AT(scene.contact.restitution)),
+    row("contact.restitution", "", between("from 0.1 to 1", 0.1, 1.0), "coefficient of restitution of two rigid bodies, at each touch, for \"hertz\" and \"linear\": sets contact.damping by its velocity", "none", AT(scene.contact.restitution)),
     or_word(row("contact.yield_pressure", "Pa", positive, "contact pressure at which the softer body yields, for \"sphere\" and \"line\"", "\"by-depth\"; of simulate() 1.6 times beam.yield_stress, 1.67 times for \"line\"", AT(scene.contact.yield_pressure)),
             {"by-depth", "the mean pressure rises with the dent, up to 2.8 times beam.yield_stress"}, &Contact::pressure_by_depth),
     row("contact.indentation", "", any_value, "from where \"sphere\", and \"hertz\" without stiffness, measure the indentation", "\"mid-plane\" on solid beams that bend, else \"half-space\"", AT(scene.contact.indentation)),

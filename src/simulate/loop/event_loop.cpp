@@ -208,6 +208,8 @@ void EventLoop::report(const EventFunction& function, double time, const State& 
   } else {
     beam_.contact().set(branch_after(function.kind), beam_.contact().history());
   }
+  const bool touches = function.kind == EventKind::contact_begins && !function.of_rate();
+  if (touches) beam_.contact().touch(beam_.indentation_rate(y));
   if (!audited) audit_.check(time, y);
   observer_.after_event(event, y, beam_);
 }

@@ -223,7 +223,7 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
       problem.bodies().striker_velocity(), outer_stiffness(problem), std::move(solver),
       problem.contact_damping, problem.beam.damping, std::move(loads),
       std::max(problem.bodies().velocity_scale(), velocity_under_weight(problem)),
-      std::move(tension)});
+      std::move(tension), problem.restitution_velocity});
   set_start(problem, beam);
   return beam;
 }

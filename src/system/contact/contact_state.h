@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <utility>
@@ -42,9 +43,13 @@ struct EventFunction {
 /// (docs/theory.md, "Events"; of a damped contact, for laws that never yield: "Contact").
 class ContactState {
  public:
-  /// `damping`: chi, s/m.
-  explicit ContactState(std::shared_ptr<const ContactLaw> law, double damping = 0.0)
-      : law_(std::move(law)), damping_(damping) {}
+  /// `damping`: chi, s/m, of touches at `restitution_velocity` (m/s) or, where that is 0, of all.
+  explicit ContactState(std::shared_ptr<const ContactLaw> law, double damping = 0.0,
+                        double restitution_velocity = 0.0)
+      : law_(std::move(law)),
+        damping_(damping),
+        damping_number_(damping * restitution_velocity),
+        slowest_touch_(slowest_damped_touch * restitution_velocity) {}
 
   bool is_damped() const { return damping_ > 0.0; }
   /// Whether the striker has left a surface that is still indented, in damped contacts.
@@ -92,12 +97,21 @@ class ContactState {
   }
   void commit(double indentation);
   void pass(const EventFunction& event, double indentation);
+  /// A contact begins at a rate (m/s). Hunt and Crossley's coefficient of restitution depends on
+  /// chi times that rate alone, and stays what it is from a hundredth of restitution_velocity on: a
+  /// slower touch, a graze, has the chi of that, so that it is no wall.
+  void touch(double rate) {
+    if (damping_number_ > 0.0) damping_ = damping_number_ / std::max(rate, slowest_touch_);
+  }
   /// For schemes that do not locate events: the branch on which the indentation lies.
   void follow(double indentation) { branch_ = law_->branch(history_, indentation); }
 
  private:
+  static constexpr double slowest_damped_touch = 0.01;
+
   std::shared_ptr<const ContactLaw> law_;
   double damping_;
+  double damping_number_, slowest_touch_;
   bool recovering_ = false;
   Evaluation evaluation_ = Evaluation::smooth;
   ContactBranch branch_ = ContactBranch::separated;

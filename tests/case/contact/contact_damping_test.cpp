@@ -68,6 +68,33 @@ TEST(ADampedContact, LosesWhatAGivenCoefficientOfRestitutionSays) {
   }
 }
 
+TEST(ADampedContact, HasTheGivenRestitutionAtEveryTouchAndThenRests) {
+  for (const ContactKind kind : {ContactKind::linear, ContactKind::hertz}) {
+    for (const double e : {0.5, 0.8, 0.95}) {
+      Case input = rigid_case(kind, 0.0);
+      input.scene.beam.fixed = true;
+      input.scene.gravity = 9.81;
+      input.scene.striker.mass = 0.0415;
+      input.scene.striker.drop_height = 1.0;
+      input.scene.contact.stiffness = kind == ContactKind::hertz ? 1e7 : 1e5;
+      input.scene.contact.restitution = e;
+      input.solver.method = Method::erk;
+      input.end_time = 4.0;
+      const Result result = completed(input);
+      const double weight = 9.81 * input.scene.striker.mass;
+      double before = std::sqrt(2.0 * 9.81);
+      int n_hard = 0;
+      for (const SubImpact& s : result.sub_impacts) {
+        if (!(s.peak_force > 100.0 * weight)) break;
+        EXPECT_NEAR(-s.striker_velocity / before, e, 0.02 * e) << n_hard;
+        before = -s.striker_velocity;
+        ++n_hard;
+      }
+      EXPECT_GE(n_hard, 3);
+    }
+  }
+}
+
 TEST(ADampedContact, HasThePeakForceOfItsPhasePortrait) {
   // With u = lambda' the energy K/m lambda^(n+1)/(n+1) is (v - u)/chi - ln((1 + chi v)/(1 + chi
   // u))/chi^2.
