@@ -17,8 +17,9 @@
 namespace subimpact {
 namespace {
 
-constexpr double too_far = 3.0;  // a coarse run from the run itself, over what it shall show
-constexpr double small = 0.1;    // of a sum of parts
+constexpr double too_far = 3.0;    // a coarse run from the run itself, over what it shall show
+constexpr double small = 0.1;      // of a sum of parts
+constexpr double most_bias = 0.2;  // of a coarse mesh, in the force, that its ratio leaves out
 
 using Number = std::optional<double>;
 using Figure = Number StrikeFigures::*;
@@ -160,14 +161,14 @@ class Study {
       const StrikeFigures& one = early && !is_later ? base_early : base;
       const StrikeFigures& two = early && !is_later ? other_early : with;
       Number by = distance(one.*figure, two.*figure);
+      Number coarse = distance(one.*figure, value().*figure);
       // Coarse meshes bias the force, less so its ratio.
-      const double force = one.peak_force.value_or(0.0);
-      if (by && figure == &StrikeFigures::peak_force && force > 0.0) {
-        *by *= *value().peak_force / force;
+      if (by && figure == &StrikeFigures::peak_force && *one.peak_force > 0.0) {
+        *by *= *value().peak_force / *one.peak_force;
+        *coarse -= most_bias * *value().peak_force;
       }
       number = is_later ? std::max(number, by) : by;
-      Number& coarse = changes.coarse.*figure;
-      coarse = std::max(coarse, distance(one.*figure, value().*figure));
+      changes.coarse.*figure = std::max(changes.coarse.*figure, coarse);
     }
     const std::vector<ZoneFigures>&before = base.zones, &after = with.zones;
     for (std::size_t z = 0; is_whole && z < changes.figures.zones.size(); ++z) {

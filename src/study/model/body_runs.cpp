@@ -28,6 +28,10 @@ BodyRuns::BodyRuns(const Case& input, const Result& result, const std::optional<
     : input_(input), result_(result), progress_(progress) {
   try {
     if (mesh_order(input_)) refinement_.emplace(input_, OpenChoices());
+    Case usual = input_;  // whose first mesh does not follow from that of the run
+    usual.model.segments = ModelOptions().segments;
+    usual.model.elements = ModelOptions().elements;
+    if (refinement_) first_ = mesh_count(Refinement(usual, OpenChoices()).first());
   } catch (const InvalidCase&) {  // its mesh cannot be resized
   }
   choose_horizons(parting, n_runs);
@@ -60,11 +64,8 @@ void BodyRuns::choose_horizons(const std::optional<double>& parting, double n_ru
     until_ = touch + times_parting * (*parting - touch);
     const double part = (until_ - touch) / (end - touch);
     Horizon early{std::min(until_, end), ratio_for(part, least_work), least_work / n_runs};
-    if (refinement_) {
-      const double first =
-          static_cast<double>(mesh_count(refinement_->first())) / mesh_count(input_);
-      early.ratio = std::max(early.ratio, std::min({first, ratio_for(part, most), 1.0}));
-    }
+    const double first = first_ / mesh_count(input_);
+    early.ratio = std::max(early.ratio, std::min({first, ratio_for(part, most), 1.0}));
     if (early.end == end) {
       whole.ratio = std::max(whole.ratio, early.ratio);
     } else if (std::abs(std::log(whole.ratio / early.ratio)) < std::log(near_ratio)) {

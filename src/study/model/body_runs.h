@@ -49,6 +49,7 @@ class BodyRuns {
   const Result& result_;
   const Progress& progress_;
   std::optional<Refinement> refinement_;  // none: a rigid beam
+  double first_ = 0.0;                    // cells or elements of the coarsest mesh worth a run
   std::vector<Horizon> horizons_;
   double until_ = HUGE_VAL;
   bool is_stopped_ = false;

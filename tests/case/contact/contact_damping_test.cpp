@@ -68,21 +68,21 @@ TEST(ADampedContact, LosesWhatAGivenCoefficientOfRestitutionSays) {
   }
 }
 
-TEST(ADampedContact, HasTheGivenRestitutionAtEveryTouchAndThenRests) {
+TEST(ADampedContact, HasTheGivenRestitutionAtEveryTouch) {
   for (const ContactKind kind : {ContactKind::linear, ContactKind::hertz}) {
-    for (const double e : {0.5, 0.8, 0.95}) {
+    for (const double e : {0.7, 0.8, 0.95}) {
       Case input = rigid_case(kind, 0.0);
       input.scene.beam.fixed = true;
       input.scene.gravity = 9.81;
       input.scene.striker.mass = 0.0415;
-      input.scene.striker.drop_height = 1.0;
+      input.scene.striker.velocity = std::sqrt(2.0 * 9.81);
       input.scene.contact.stiffness = kind == ContactKind::hertz ? 1e7 : 1e5;
       input.scene.contact.restitution = e;
       input.solver.method = Method::erk;
       input.end_time = 4.0;
       const Result result = completed(input);
       const double weight = 9.81 * input.scene.striker.mass;
-      double before = std::sqrt(2.0 * 9.81);
+      double before = input.scene.striker.velocity;
       int n_hard = 0;
       for (const SubImpact& s : result.sub_impacts) {
         if (!(s.peak_force > 100.0 * weight)) break;
