@@ -11,10 +11,8 @@ namespace subimpact {
 namespace {
 
 // Safety factors, measured on random scenes: the tables of validation/truth/judgement.
-constexpr double time_safety = 2.7;
-constexpr double value_safety = 3.2;
+constexpr Judge::Safety of_near_runs{2.4, 2.8, 0.75}, of_near_and_far_run{2.7, 3.2, 0.8};
 constexpr double margin_safety = 2.5;
-constexpr double existence_safety = 0.8;
 // Of a difference, where a far run shows the sub-impact too: the rest is chance.
 constexpr double most_gain_beside_far = 1.4;
 constexpr double most_over_median = 2.0;  // of the error of a time that makes a length uncertain
@@ -60,7 +58,12 @@ Judge::Judge(const Case& input, const Result& run, std::span<const RunBeside> be
       run_(run),
       all_(run.sub_impacts),
       beside_(beside),
-      runs_factor_(beside.size() > 1 ? 1.0 : single_run_factor) {
+      runs_factor_(beside.size() > 1 ? 1.0 : single_run_factor),
+      has_one_near_run_(beside.size() == 2 && std::ranges::count_if(beside,
+                                                                    [](const RunBeside& other) {
+                                                                      return other.of.of_existence;
+                                                                    }) == 1),
+      safety_(has_one_near_run_ ? of_near_and_far_run : of_near_runs) {
   for (const RunBeside& other : beside) {
     if (other.of.of_existence) of_existence_.push_back(partners_.size());
     partners_.push_back(partners_in(run, other.result));
@@ -78,12 +81,12 @@ double Judge::time_error(std::size_t event) const {
   const double since_touch = here.time - run_.sub_impacts.front().start;
   const double of_ends =
       of_mesh(beside_) ? free_end_error(input_, run_.used.contact_time, since_touch) : 0.0;
-  return std::max({time_safety * runs_factor_ * std::max(here.error, least),
+  return std::max({safety_.time * runs_factor_ * std::max(here.error, least),
                    free_end_safety * of_ends, rounding_of_times * here.time});
 }
 
 double Judge::usual_time_error(std::size_t event) const {
-  if (!resolves_amply(input_, run_.used.contact_time)) return time_error(event);
+  if (!has_one_near_run_) return time_error(event);
   const double around =
       median_around(event, events_.size(), [&](std::size_t e) -> std::optional<double> {
         return e > 0 && events_[e].known ? std::optional(time_error(e)) : std::nullopt;
@@ -97,7 +100,7 @@ double Judge::value_error(std::size_t i, const Value& value, double least) const
   const double around =
       median_around(i, all_.size(), [&](std::size_t k) { return difference(k, value); });
   const double error = std::max(*own, around);
-  return std::max(value_safety * runs_factor_ * error, least);
+  return std::max(safety_.value * runs_factor_ * error, least);
 }
 
 double Judge::opening_error(std::size_t i) const {
@@ -108,7 +111,7 @@ double Judge::opening_error(std::size_t i) const {
     const bool is_known = there && *all_[k].opening > 0.0;
     return is_known ? std::optional(*there * *all_[i].opening / *all_[k].opening) : std::nullopt;
   });
-  return std::max(value_safety * runs_factor_ * std::max(*own, around), delta(2 * i + 1));
+  return std::max(safety_.value * runs_factor_ * std::max(*own, around), delta(2 * i + 1));
 }
 
 double Judge::least_indentation_error(std::size_t i) const { return depth_safety * delta(2 * i); }
@@ -218,6 +221,7 @@ const SubImpact* Judge::shown_by(std::size_t k, std::size_t i) const {
 
 double Judge::gain(std::size_t k, std::size_t i) const {
   const double full = beside_[k].of.gain;
+  if (!has_one_near_run_) return full;
   for (std::size_t far = 0; far < beside_.size(); ++far) {
     const bool is_far = !beside_[far].of.of_existence;
     if (is_far && shown_by(far, i)) return std::min(full, most_gain_beside_far);
@@ -290,7 +294,7 @@ std::optional<double> Judge::opening_difference(std::size_t i) const {
 
 double Judge::delta(std::size_t event) const {
   const std::size_t next = std::min(event + 1, deltas_.size() - 1);
-  return existence_safety * runs_factor_ * std::max(deltas_[event], deltas_[next]);
+  return safety_.existence * runs_factor_ * std::max(deltas_[event], deltas_[next]);
 }
 
 double Judge::depth(std::size_t i) const {
@@ -339,7 +343,7 @@ std::optional<Reason> Judge::doubt_by_joining(std::size_t i) const {
     return Reason{kind, {}, *all_[first].opening, error, limit};
   }
   const Value inner = [](const SubImpact& s) { return s.inner_opening.value_or(0.0); };
-  const double error = value_safety * runs_factor_ * difference(i, inner).value_or(0.0);
+  const double error = safety_.value * runs_factor_ * difference(i, inner).value_or(0.0);
   if (*inner(all_[i]) + error < limit) return {};
   return Reason{Kind::joined_within, {}, *inner(all_[i]), error, limit};
 }

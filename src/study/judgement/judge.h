@@ -25,6 +25,11 @@ class Judge {
   /// An error that is not known.
   static constexpr double unknown = std::numeric_limits<double>::infinity();
 
+  /// Factors of the errors of times, of values, and of the indentation where it tells existence.
+  struct Safety {
+    double time, value, existence;
+  };
+
   Judge(const Case& input, const Result& run, std::span<const RunBeside> beside);
 
   /// Error (s) of the time of an event.
@@ -126,6 +131,8 @@ class Judge {
   std::vector<Event> events_;
   std::vector<double> deltas_;  // m, of the indentation at each event
   double runs_factor_;          // of all safety factors: single_run_factor or 1
+  bool has_one_near_run_;       // and a far one: the mesh is fine
+  Safety safety_;
 };
 
 }  // namespace subimpact

@@ -44,9 +44,9 @@ TEST(TheErrorOfAnOpening, CoversTheDifferenceAndIsAShareOfTheOpening) {
   const Result run = judged(contacts({2 * um, 400 * um, 30 * um, 100 * um}),
                             contacts({2.2 * um, 440 * um, 30 * um, 110 * um}));
   EXPECT_TRUE(run.all_certain());
-  EXPECT_NEAR(*run.sub_impacts[0].opening_error, 3.2 * 0.2 * um, 1e-12);
-  EXPECT_NEAR(*run.sub_impacts[1].opening_error, 3.2 * 40.0 * um, 1e-12);
-  EXPECT_NEAR(*run.sub_impacts[2].opening_error, 3.2 * 3.0 * um, 1e-12);  // not 0 by chance
+  EXPECT_NEAR(*run.sub_impacts[0].opening_error, 2.8 * 0.2 * um, 1e-12);
+  EXPECT_NEAR(*run.sub_impacts[1].opening_error, 2.8 * 40.0 * um, 1e-12);
+  EXPECT_NEAR(*run.sub_impacts[2].opening_error, 2.8 * 3.0 * um, 1e-12);  // not 0 by chance
 }
 
 TEST(AnOpeningOfOneRunAlone, PutsNothingInDoubtIfItIsJoined) {
