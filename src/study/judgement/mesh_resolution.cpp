@@ -11,7 +11,7 @@ namespace {
 
 constexpr double cells_per_wave = 8.0;
 constexpr double fewest_cells = 64.0;
-constexpr double ample = 2.5;  // of the parts that resolve contacts
+constexpr double ample = 6.0;  // of the parts that resolve contacts
 constexpr int low_order = 2;
 
 double cells_of_a_part(const Case& input) {
