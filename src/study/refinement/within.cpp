@@ -325,8 +325,9 @@ class Search {
       outcome.reason->sub_impact = beyond - result.sub_impacts.begin();
     } else if (!result.error_estimate) {
       outcome.reason = {Kind::no_run_beside};
-    } else if ((outcome.reason = result.error_estimate->reason)) {
-      outcome.reason->sub_impact = result.error_estimate->first_unresolved;
+    } else {
+      outcome.reason = result.error_estimate->reason;
+      if (outcome.reason) outcome.reason->sub_impact = result.error_estimate->first_unresolved;
     }
     if (beyond != result.sub_impacts.end()) outcome.horizon = beyond->start;
   }
