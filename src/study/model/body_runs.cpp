@@ -64,8 +64,10 @@ void BodyRuns::choose_horizons(const std::optional<double>& parting, double n_ru
     until_ = touch + times_parting * (*parting - touch);
     const double part = (until_ - touch) / (end - touch);
     Horizon early{std::min(until_, end), ratio_for(part, least_work), least_work / n_runs};
-    const double first = first_ / mesh_count(input_);
-    early.ratio = std::max(early.ratio, std::min({first, ratio_for(part, most), 1.0}));
+    if (refinement_) {
+      const double first = first_ / mesh_count(input_);
+      early.ratio = std::max(early.ratio, std::min({first, ratio_for(part, most), 1.0}));
+    }
     if (early.end == end) {
       whole.ratio = std::max(whole.ratio, early.ratio);
     } else if (std::abs(std::log(whole.ratio / early.ratio)) < std::log(near_ratio)) {

@@ -10,7 +10,7 @@ namespace subimpact {
 /// of a run, by the parts of docs/model.md. `given`: the keys of the user; what they and the
 /// material leave open is a part.
 ///
-/// Most come from runs with one thing changed, on meshes of the run's own kind and with a fifth of
+/// Most come from runs with one thing changed, on meshes of the run's own kind and with a sixth of
 /// the counted work of the run and those beside it, at least some 4e6: to twice the time of the
 /// parting for what is decided by then, which so does not depend on the end, and to the end. A
 /// change is not known where such a run failed, lost a twentieth of the energy, has no such number,
