@@ -205,10 +205,9 @@ bool grows_without_bound(const EventLoop& run, const Audit& audit, Integrator& i
   RunObserver nobody;
   LoopOptions options = loop_options(parts);
   options.first_touch = run.time();
-  const State y = run.state();
   EventLoop ahead(parts.beam, integrator, nobody, without_limits, options);
   try {
-    ahead.start_from(y);
+    ahead.start_from(run.state());
     for (long n = 0; n < most_steps && !ahead.finished(); ++n) {
       ahead.advance();
       without_limits.check(ahead.time(), ahead.state());
