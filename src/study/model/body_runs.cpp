@@ -11,14 +11,16 @@
 namespace subimpact {
 namespace {
 
-constexpr double share_of_work = 0.08;  // of each horizon
-constexpr double least_work = 2e6;      // some 10 ms
-constexpr double dearer = 1.5;          // an evaluation on a coarse mesh that yields
-constexpr double coarsest = 0.02;       // of the mesh of the run
-constexpr double near_ratio = 1.5;      // of two meshes, of which one does for both horizons
-constexpr double n_rows = 50.0;         // of which largest displacements are taken
-constexpr int most_cells = 241;         // where the mesh of the run does not do
-constexpr double times_parting = 2.0;   // horizon of what is decided early
+constexpr double share_of_work = 0.08;    // of each horizon
+constexpr double least_work = 2e6;        // some 10 ms
+constexpr double dearer = 1.5;            // an evaluation on a coarse mesh that yields
+constexpr double coarsest = 0.02;         // of the mesh of the run
+constexpr double near_ratio = 1.5;        // of two meshes, of which one does for both horizons
+constexpr double n_rows = 50.0;           // of which largest displacements are taken
+constexpr int most_cells = 241;           // where the mesh of the run does not do
+constexpr double most_of_modes = 2e7;     // of unlike ends with shear, which are decomposed: 0.1 s
+constexpr double fewest_elements = 0.25;  // of those wanted
+constexpr double times_parting = 2.0;     // horizon of what is decided early
 constexpr double most_energy_lost = 0.05;
 
 }  // namespace
@@ -105,8 +107,13 @@ std::optional<Case> BodyRuns::case_on_mesh(const Case& of, const Horizon& horizo
   }
   const auto& suits = descriptor_of(other.model.mesh).suits;
   if (!suits(other.scene.beam)) {
-    other.model.elements = 2 * (other.model.elements / 4 + 1);
+    const int quarter = other.model.elements / 4 + 1;
+    other.model.elements = 2 * quarter;
     other.model.mesh = MeshKind::spectral;
+    const double modes = resolve(other).settings().decomposition;
+    const double affordable = std::cbrt(std::max(horizon.work, most_of_modes) / modes);
+    if (affordable < fewest_elements) return std::nullopt;
+    if (affordable < 1.0) other.model.elements = 2 * static_cast<int>(affordable * quarter);
   }
   other.scatter.clear();
   other.strikes = 1;

@@ -61,6 +61,11 @@ double work_of_steps(const Case& input) {
          static_cast<double>(used.n_unknowns);
 }
 
+// The same with natural modes.
+double work_known(const Case& input) {
+  return work_of_steps(input) + work_with_others * resolve(input).settings().decomposition;
+}
+
 double work_limit_of(const Case& input) {
   return input.accuracy.event_times ? input.accuracy.work_limit : default_work_limit;
 }
@@ -68,7 +73,7 @@ double work_limit_of(const Case& input) {
 // The coarsest mesh worth a run or, where that would take more work than is allowed, a coarser one.
 Case affordable_first(const Refinement& refinement, double work_limit) {
   const Case& first = refinement.first();
-  const double work = work_of_steps(first);
+  const double work = work_known(first);
   if (refinement.fixed_key() || work <= work_limit) return first;
   return refinement.resized(first, std::pow(work_limit / work, 1.0 / usual_growth)).value_or(first);
 }
@@ -248,7 +253,7 @@ class Search {
     if (refinement_->fixed_key()) return true;
     if (!best_) {
       const double with_next = 1.0 + std::pow(least_refinement, usual_growth);
-      return with_next * work_of_steps(next) > work_limit_;
+      return with_next * work_known(next) > work_limit_;
     }
     const double ratio = static_cast<double>(mesh_count(next)) / mesh_count(best_->input);
     const double work = work_of_next(ratio);
@@ -422,14 +427,13 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open) {
 }
 
 WorkRange work_expected(const Case& first, const std::optional<OpenChoices>& open) {
-  const double steps = work_of_steps(first);
-  const double level = steps + work_with_others * resolve(first).settings().decomposition;
+  const double level = work_known(first);
   if (open && Refinement(first, *open).fixed_key() == nullptr) {
     const double most =
         first.accuracy.event_times ? first.accuracy.work_limit : work_limit_while_certainty_grows;
     return {level, std::max(level, most)};
   }
-  return {level, steps > 0.0 ? std::optional(level) : std::nullopt};
+  return {level, work_of_steps(first) > 0.0 ? std::optional(level) : std::nullopt};
 }
 
 WithinRun simulate_within(const Case& input, const OpenChoices& open,

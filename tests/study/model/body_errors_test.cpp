@@ -2,6 +2,7 @@
 
 #include "subimpact/study/model/body_errors.h"
 #include "elastic_case.h"
+#include "study/model/body_runs.h"
 #include "study/model/coarse_strike.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/refinement/within.h"
@@ -76,6 +77,26 @@ TEST(BodyErrors, AreThoseOfMeshesWhoseRunsAreAffordableWithDampingToo) {
     return counted_work(coarse, simulate(coarse));
   };
   EXPECT_LT(work(cells()), 8e6);
+}
+
+// Spectral elements have no modes in closed form between unlike ends.
+TEST(BodyErrors, DecomposeNoLargeMatrixForShear) {
+  Case input = elastic_case(0.6e-3, 501, Method::exponential);
+  input.scene.beam.theory = BeamTheory::euler_bernoulli;
+  input.scene.beam.ends = {EndSupport::clamped, EndSupport::pinned};
+  input.model.mesh = MeshKind::hermite;
+  const auto decomposition = [&](int elements) -> std::optional<double> {
+    input.model.elements = elements;
+    const Result result = simulate(input);
+    BodyRuns runs(input, result, std::nullopt, 5.0, {});
+    Case sheared = input;
+    sheared.scene.beam.theory = BeamTheory::timoshenko;
+    sheared.scene.beam.poisson = 0.3;
+    const auto run = runs.on_mesh(sheared, runs.horizons().back());
+    return run ? std::optional(run->used.decomposition) : std::nullopt;
+  };
+  EXPECT_LT(decomposition(300).value_or(1e99), 3e7);
+  EXPECT_LT(decomposition(3000).value_or(0.0), 3e7);
 }
 
 TEST(BodyErrors, AreNoneWhereTheRunIsToEnd) {

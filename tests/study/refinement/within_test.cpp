@@ -294,6 +294,19 @@ TEST(AWish, BeginsOnACoarserMeshWhereTheUsualFirstOneIsAboveTheLimitAndRunsItOnc
   for (const auto& [segments, n] : runs) EXPECT_EQ(n, 1) << segments << " cells";
 }
 
+TEST(AWish, BeginsWhereMatricesOfModesAreAffordable) {
+  Case input = elastic_case(1e-3, 501, Method::exponential);
+  input.scene.beam.ends = {EndSupport::clamped, EndSupport::free};  // no modes in closed form
+  input.scene.beam.theory = BeamTheory::timoshenko;
+  input.scene.beam.poisson = 0.3;
+  input.scene.striker.position = 0.998;
+  input.accuracy.work_limit = 1e9;
+  input.accuracy.event_times = 1e-6;
+  const Case first = first_choice(input, {}).input;
+  EXPECT_GT(resolve(first).settings().decomposition, 1e7);
+  EXPECT_LT(resolve(first).settings().decomposition, 1e9);
+}
+
 TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
   Case input = wishing(1e-5, SectionKind::elastic, 0.3e-3);  // met by the first level, without rows
   input.output.interval = 1e-6;
