@@ -62,8 +62,10 @@ def check(screen, page, result):
     assert in_print(result.verdict["text"]) in page
     for answer in result.answers:
         if answer["known"] and answer["key"] != "zones":
-            errors = f"{answer['error_text']} computed, {answer['body_text']} body" if answer["error_text"] else ""
-            assert re.search(f">{re.escape(in_print(answer['text']))}</b><small>[^<]*{re.escape(in_print(errors))}", page)
+            body = f"+- {answer['total_text']}" if answer["total_text"] else answer["body_text"]
+            errors = [f"real beam: {body}", f"computed: +- {answer['error_text']}"] if answer["error_text"] else [""]
+            shown_errors = "[^<]*".join(re.escape(in_print(each)) for each in errors)
+            assert re.search(f">{re.escape(in_print(answer['text']))}</b><small>[^<]*{shown_errors}", page)
         assert answer["known"] == (answer["value"] is not None) == (answer["why"] is None)
 
 

@@ -158,13 +158,18 @@ def _certainty(summary: Mapping[str, Any], report: Mapping[str, Any]) -> dict[st
 
 
 def errors_of(answer: Mapping[str, Any]) -> str:
-    """Both errors of an answer, in the unit of its text."""
-    computed, body = answer["error_text"], answer["body_text"]
+    """How far the answer may be from the real beam, and from the exact solution of the model, in the unit of its text."""
+    computed, body = answer["error_text"], answer["total_text"] or answer["body_text"]
     if not computed:
         return ""
-    together = f"+- {answer['total_text']} in all: " if answer["total_text"] else ""
     mostly = f", mostly {answer['parts'][0]['label']}" if answer["parts"] and answer["parts"][0]["change"] else ""
-    return f"{together}{computed} computed, {body} body{mostly}"
+    return f"real beam: {'+- ' if answer['total_text'] else ''}{body}{mostly}; computed: +- {computed}"
+
+
+def _begin_error(error: float | None) -> str:
+    if error == 0.0:
+        return ""
+    return "real beam: its begin is not known" if error is None else f"real beam: begins +- {1e6 * error:.3g} us"
 
 
 def _tile(answer: Mapping[str, Any]) -> tuple[str, str, str]:
@@ -208,7 +213,7 @@ def _answers(summary: Mapping[str, Any]) -> dict[str, str]:
     answers = [answer for answer in summary["answers"] if answer["known"] or answer["key"] in (*_FIRST, "restitution")]
     further = [_tile(answer) for answer in answers if answer["key"] not in _FIRST and answer["key"] != "zones"]
     zones = [item for answer in answers for item in answer["items"]]
-    further += [(f"zone {zone['number']}", zone["text"], "") for zone in zones[:_MOST_ZONES]]
+    further += [(f"zone {zone['number']}", zone["text"], _begin_error(zone["start_body_error_s"])) for zone in zones[:_MOST_ZONES]]
     return {"first": tiles(_tile(answer) for answer in answers if answer["key"] in _FIRST), "further": tiles(further),
             "model": _section("How far a real body may be from this model", _body(summary["answers"]))}
 
