@@ -72,13 +72,14 @@ auto at_end(double Energies::*energy) {
   return [energy](const Finished& run) { return run.result.final_energies.*energy; };
 }
 
-// The largest deflection at rest from the chord; none of a run without shapes.
+// The largest deflection at rest from the chord; none of a run without shapes, or that turns too far.
 std::optional<double> permanent_set(const Finished& run) {
   double largest = 0.0;
   for (const EnvelopeRow& row : run.result.envelope) {
     largest = std::max(largest, std::abs(row.set_from_supports));
   }
-  return run.result.envelope.empty() ? std::nullopt : std::optional(largest);
+  const bool is_known = !run.result.envelope.empty() && !run.result.turns_too_far();
+  return is_known ? std::optional(largest) : std::nullopt;
 }
 
 double residual_indentation(const Finished& run) {

@@ -96,8 +96,10 @@ KeyValue key_value(const CaseKey& key, py::handle value) {
   if (key.type == KeyType::count && is_whole) converted = static_cast<std::int64_t>(*real);
   const auto* text = converted ? std::get_if<std::string>(&*converted) : nullptr;
   const bool is_with_unit = text != nullptr && key.type == KeyType::number;
-  if (const auto in_si = is_with_unit ? value_in(key.unit, *text) : std::nullopt) {
-    if (const auto problem = problem_with(key, *in_si)) {
+  const std::string unit = is_position(key) ? "m" : key.unit;
+  if (const auto in_si = is_with_unit ? value_in(unit, *text) : std::nullopt) {
+    const auto problem = problem_with(key, *in_si);
+    if (problem && !is_position(key)) {
       throw InvalidCase(key.name, key.name + ' ' + *problem);
     }
     return *converted;  // the unit is checked against the law when the case is read

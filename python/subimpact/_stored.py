@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import os
 from contextlib import closing
 from pathlib import Path
@@ -47,7 +48,7 @@ class Stored:
         if _WORDS.isdisjoint(names):
             columns = list(_numbers(body, len(names), file).T)
         else:
-            rows = [line.split(",") for line in body.decode(errors="replace").splitlines()]
+            rows = list(csv.reader(body.decode(errors="replace").splitlines()))
             if any(len(row) != len(names) for row in rows):
                 raise ResultsError(f"{file}: has rows of other than {len(names)} cells; run the case again")
             cells = list(zip(*rows)) or [()] * len(names)

@@ -249,12 +249,14 @@ def scatter(
     *,
     jobs: int = 1,
     progress: Callable[[int, int], object] | None = None,
+    distribution: str = "normal",
 ) -> Scatter:
     """What the scatter of a case, its [scatter], leaves of the strike, as `subimpact scatter` shows it: standard deviations
     of event times by derivatives, how many sub-impacts can be predicted one by one, and numbers of the strike as a whole
     over 64 samples. Where the runs would take long, they are on coarser meshes, at least an eighth as fine.
 
     jobs      threads; results do not depend on it
+    distribution  of the samples: "normal" or "uniform", of the same standard deviations
     progress  called with the number of runs that ended, and of all; False ends the study
 
     Raises CaseError for a case that cannot be run or in which nothing scatters, KeyboardInterrupt after Ctrl-C.
@@ -282,7 +284,7 @@ def scatter(
     base = Case.from_text(_core.affordable(chosen._load(), N_SAMPLES))
     if base["accuracy.event_times"] is not None:
         del base["accuracy.event_times"]
-    plan = Plan(base, samples=N_SAMPLES)
+    plan = Plan(base, samples=N_SAMPLES, distribution=distribution)
     nominal, *made = runs.of([lambda: plan.base, *(partial(plan.case_of, number) for number in range(N_SAMPLES))])
     if runs.interrupted:
         raise KeyboardInterrupt
@@ -307,7 +309,9 @@ the signal's number: stopped (130 by Ctrl-C)."""
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit status."""
     command = Command("scatter", "Shows how far a strike can be predicted whose numbers scatter ([scatter] of the case).", _EXAMPLES)
-    return command.run(arguments, lambda case, options, shared: scatter(case, **shared))
+    command.add("--distribution", choices=("normal", "uniform"), default="normal", help="of the samples: normal, or uniform between "
+                "1.73 standard deviations below and above")
+    return command.run(arguments, lambda case, options, shared: scatter(case, distribution=options.distribution, **shared))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ constexpr const char* sentences[] = {
     "it is split or merged or does not end with {what}",
     "there is one with {what}",
     "there is another one with {what}",
-    "the run with {what} stopped before its end, at {u_time:.6g} us",
+    "the run with {what} stopped before its end, at {instant}",
     "its indentation is {u_value_2} um with an error of {u_error_2} um",
     "the opening before it is {u_value_2} um with an error of {u_error_2} um",
     "the opening after it is {u_value_2} um with an error of {u_error_2} um",
@@ -25,8 +25,8 @@ constexpr const char* sentences[] = {
     "its duration is {u_value_2} us with an error of {u_error_2} us",
     "the separation before it is {u_value_2} us with an error of {u_error_2} us",
     "the separation after it is {u_value_2} us with an error of {u_error_2} us",
-    "at {u_time:.6g} us the contact nearly opens: {u_value_2} um are left with an error of {u_error_2} um",
-    "at {u_time:.6g} us the gap nearly closes: {u_value_2} um are left with an error of {u_error_2} um",
+    "at {instant} the contact nearly opens: {u_value_2} um are left with an error of {u_error_2} um",
+    "at {instant} the gap nearly closes: {u_value_2} um are left with an error of {u_error_2} um",
     "the part of the mesh under the striker is {value:.2g} times as heavy as it",
     "the strike is {value:.2g} cells of the mesh from an end",
     "it lasts to the end and {value:.0f} parts of the mesh do not resolve the bending waves of contacts as short as {u_time:.2g} us as {limit:.0f} would",
@@ -55,6 +55,7 @@ std::string words_of(const Reason& reason) {
                      fmt::arg("error", reason.error), fmt::arg("limit", reason.limit),
                      fmt::arg("u_value", u_value), fmt::arg("u_error", u_error),
                      fmt::arg("u_limit", um * reason.limit), fmt::arg("u_time", us * reason.time),
+                     fmt::arg("instant", instant_text(reason.time)),
                      fmt::arg("u_value_2", with_significant(u_value, 2)),
                      fmt::arg("u_error_2", with_significant(u_error, 2)));
 }

@@ -86,9 +86,9 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
     if (result.choice.empty()) {
       all.push_back(chosen_mesh(input, given, result));
       if (all.back().options.empty()) all.pop_back();
-    } else if (!result.tolerance) {
+    } else if (!result.tolerance && result.certainty_grew.value_or(!result.rests_since)) {
       all.push_back(smaller_errors(input, result));
-    } else if (is_stopped_by_work) {
+    } else if (is_stopped_by_work && result.certainty_grew.value_or(true)) {
       all.push_back({{{"--within", fmt::format("{:g}us", 1e6 * result.tolerance->asked)},
                       {"--set", fmt::format("accuracy.work_limit={:.3g}",
                                             times_more_accurate * input.accuracy.work_limit)}},
@@ -98,7 +98,7 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
     }
   }
   const bool may_have_more = estimate && estimate->doubt_after(result.sub_impacts.size() - 1);
-  if (!result.contact_over && !(may_have_more && result.no_more_contact)) {
+  if (!result.contact_over && !result.rests_since && !(may_have_more && result.no_more_contact)) {
     all.push_back({{{"--set", fmt::format("time.end={:.4g}", times_longer * input.end_time)}},
                    times_longer * result.work.all_seconds,
                    "may show whether contact is over",

@@ -215,13 +215,15 @@ class Answers {
     const bool has_yielded = result_.n_yielded_sections > 0;
     const double first_yield = first_yield_strain(input_, result_);
     const WhyNot why = !result_.used.bends()       ? fixed
+                       : result_.turns_too_far()   ? turns_too_far
                        : has_yielded               ? not_computed
                        : !(first_yield < HUGE_VAL) ? no_yield_stress
                                                    : stays_elastic;
     const bool has_fields = result_.used.bends() && !result_.envelope.empty();
     const auto most_set =
         largest([](const EnvelopeRow& row) { return std::abs(row.set_from_supports); });
-    const bool has_set = has_fields && has_yielded && !result_.plastic_zones.empty();
+    const bool has_set = has_fields && has_yielded && !result_.plastic_zones.empty() &&
+                         why != turns_too_far;
     Answer& set = add(AnswerKey::permanent_set, "m",
                       has_set ? std::optional(std::abs(most_set->set_from_supports)) : std::nullopt,
                       why, RunTotal::permanent_set);
@@ -289,7 +291,8 @@ StrikeVerdict verdict_of(const Result& result) {
                     : result.contact_over            ? over
                                                      : may_not_be_over;
   const bool has_yielded = result.n_yielded_sections > 0;
-  verdict.beam = !result.used.bends()           ? StrikeVerdict::Beam::rigid
+  verdict.beam = result.turns_too_far()         ? StrikeVerdict::Beam::turned_too_far
+                 : !result.used.bends()         ? StrikeVerdict::Beam::rigid
                  : !has_yielded                 ? StrikeVerdict::Beam::elastic
                  : result.plastic_zones.empty() ? StrikeVerdict::Beam::not_computed
                                                 : StrikeVerdict::Beam::bent;

@@ -78,6 +78,18 @@ def test_samples_have_the_scatter_that_was_asked_for(elastic):
     assert other.settings(0) != plan.settings(0)
 
 
+def test_uniform_samples_have_the_same_deviation_and_a_largest_shift(elastic, tmp_path):
+    plan = si.Plan(elastic, scatter={"striker.velocity": 0.01}, samples=4000, distribution="uniform")
+    shifts = np.log([plan.settings(i)[0][1] / 15.9 for i in range(len(plan))])
+    assert shifts.std() == pytest.approx(0.01, rel=0.03)
+    assert 0.0172 < abs(shifts).max() <= 0.01 * 3**0.5 and abs(np.percentile(shifts, 25) + 0.01 * 3**0.5 / 2) < 5e-4
+    elastic.write(tmp_path / "case.toml")
+    (tmp_path / "plan.toml").write_text('case = "case.toml"\nsamples = 4000\ndistribution = "uniform"\n[scatter]\nstriker.velocity = 0.01\n')
+    assert si.Plan.from_file(tmp_path / "plan.toml").settings(7) == plan.settings(7)
+    with pytest.raises(si.PlanError, match='distribution is \'even\'; allowed: "normal", "uniform"'):
+        si.Plan(elastic, scatter={"striker.velocity": 0.01}, samples=2, distribution="even")
+
+
 def test_keys_that_change_together_are_one_axis(elastic):
     plan = si.Plan(elastic, {("beam.width", "beam.thickness"): [(0.01, 0.02), (0.02, 0.01)]})
     assert plan.settings(1) == [("beam.width", 0.02), ("beam.thickness", 0.01)]

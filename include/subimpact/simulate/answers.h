@@ -32,7 +32,8 @@ enum class AnswerKey {
 enum class WhyNot {
   no_contact, in_contact, approaching, met_at_rest,  // of the bodies, at the end
   none_uncertain,                                    // there is nothing to join
-  does_not_rest, fixed, stays_elastic, yields, no_yield_stress, no_moduli, not_computed, no_supports
+  does_not_rest, fixed, stays_elastic, yields, no_yield_stress, no_moduli, not_computed, no_supports,
+  turns_too_far                                      // Result::turns_too_far()
 };
 
 // clang-format on
@@ -73,7 +74,7 @@ struct Answer {
 struct StrikeVerdict {
   enum class Certainty { not_known, none, some, all };  ///< of the sub-impacts
   enum class Contact { none, over, may_not_be_over, not_over, rests };
-  enum class Beam { rigid, elastic, bent, not_computed };
+  enum class Beam { rigid, elastic, bent, not_computed, turned_too_far };
   Certainty certainty = Certainty::not_known;
   Contact contact = Contact::none;
   Beam beam = Beam::rigid;

@@ -3,6 +3,7 @@
 /// What other runs of the same case, or of cases near it, show of a run. Studies fill it
 /// (study/judgement.h, study/run_as_asked.h); it is empty without them.
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -93,13 +94,11 @@ struct ErrorEstimate : ErrorOfTimes {
     std::size_t after = 0;  ///< sub-impact, from 0
     Reason reason;
   };
-  std::vector<UncertainFlight> uncertain_flights;
+  std::vector<UncertainFlight> uncertain_flights;  ///< in order
   /// The flight after a sub-impact (from 0), if it may hold another one; else null.
   const UncertainFlight* doubt_after(std::size_t i) const {
-    for (const UncertainFlight& flight : uncertain_flights) {
-      if (flight.after == i) return &flight;
-    }
-    return nullptr;
+    const auto at = std::ranges::lower_bound(uncertain_flights, i, {}, &UncertainFlight::after);
+    return at != uncertain_flights.end() && at->after == i ? &*at : nullptr;
   }
   /// On a mesh that the case fixes, errors of sub-impacts are those of the integration in time;
   /// this member states what finer meshes would change.
@@ -200,6 +199,9 @@ struct Assessment {
   std::optional<ErrorEstimate> error_estimate;  ///< with error bars
   std::optional<BodyErrors> body_errors;        ///< where they were estimated
   std::optional<ToleranceOutcome> tolerance;    ///< of runs with a tolerance on event times
+  /// Whether the last of the meshes that the program tried made more sub-impacts certain than the
+  /// one before; none: there was one mesh.
+  std::optional<bool> certainty_grew;
   /// Why mesh and method were chosen, if the program chose them; otherwise empty.
   std::string choice;
 

@@ -199,7 +199,7 @@ def _strikes(files: Files) -> tuple[str, str, list[list[float | None]]]:
     return (note, filled("strikes.html", {"names": names, "rows": lines}), drawn) if rows else ("", "", [])
 
 
-def _body(answers: list[dict[str, Any]]) -> str:
+def body_of(answers: list[dict[str, Any]]) -> str:
     """How far a real body may be from the model: what each error is made of, and what to do about that."""
     parts = [(answer["label"], answer["text"], "+- " + answer["error_text"], "+- " + answer["body_text"],
               ", ".join(f"{part['label']} {part['text']}" for part in answer["parts"])) for answer in answers if answer["parts"]]
@@ -215,7 +215,7 @@ def _answers(summary: Mapping[str, Any]) -> dict[str, str]:
     zones = [item for answer in answers for item in answer["items"]]
     further += [(f"zone {zone['number']}", zone["text"], _begin_error(zone["start_body_error_s"])) for zone in zones[:_MOST_ZONES]]
     return {"first": tiles(_tile(answer) for answer in answers if answer["key"] in _FIRST), "further": tiles(further),
-            "model": _section("How far a real body may be from this model", _body(summary["answers"]))}
+            "model": _section("How far a real body may be from this model", body_of(summary["answers"]))}
 
 
 def page(files: Files, dygraphs: str, measured: str = "") -> str:

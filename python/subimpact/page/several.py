@@ -13,19 +13,21 @@ import matplotlib
 import numpy as np
 
 from .. import _core
-from .._errors import ResultsError
+from .._errors import CaseError, ResultsError
 from .._files import Files
-from ..case import keys
+from ..case import Case, keys
 from ..plot import Absent, comparison, histograms, sweep_map
 from ..plot.sweeps import CHIEF, error_column
 from ..plot.directory import arrays_of, caption_of, letters, svg_of
 from ..result import Result, read_results
+from ..running import run
 from .markup import escaped, figures, headlines, in_print, paragraphs, table, tiles, whole
-from .run import errors_of
+from .run import body_of, errors_of
 
 _MAPPED = ("n_sub_impacts", "max_force_N", "restitution", "permanent_set_m")
 _SHOWN = ("outcome", "n_sub_impacts", "n_certain", "max_force_N", "impulse_Ns", "restitution", "permanent_set_m", "warnings", "message")
 _MOST_ROWS = 2000
+_MOST_SECONDS = 60.0  # of the run of the base case
 
 Pair = tuple[Optional[int], Optional[int]]  # of sub-impacts of two runs that correspond
 
@@ -91,6 +93,16 @@ def _statistics(columns: Mapping[str, Any]) -> str:
     return "<h2>Over all runs</h2>\n" + table(heading, rows, "statistics") if rows else ""
 
 
+def _base_case(files: Files) -> str:
+    """How far a real body may be from the base case, which is run for that."""
+    try:
+        base = run(Case.from_text(files.read("base.toml").decode()), timeout=_MOST_SECONDS) if "base.toml" in files.listed else None
+    except CaseError:  # without a key that the sweep varies it may be none that can be run
+        base = None
+    model = body_of(base.summary["answers"]) if base and base.outcome == "completed" else ""
+    return f"<h2>How far a real body may be from this model: the base case</h2>\n{model}" if model else ""
+
+
 def sweep_page(files: Files) -> str:
     """A map of the runs of a sweep over two of their keys, how their numbers are distributed, and a table. Raises ResultsError."""
     path = files.directory / "runs.csv"
@@ -123,7 +135,7 @@ def sweep_page(files: Files) -> str:
             "<h2>Keys that differ</h2>\n"
             + table(["key", "meaning", "values"], [(key, known[key].meaning if key in known else "", _values(columns[key], units[key]))
                                                    for key in all_keys])
-            + _statistics(columns) + "<h2>Figures</h2>\n" + _figures(drawings, captions)
+            + _statistics(columns) + _base_case(files) + "<h2>Figures</h2>\n" + _figures(drawings, captions)
             + "<h2>Runs</h2>\n" + table(listed, [[row[name] for name in listed] for row in rows[:_MOST_ROWS]], "runs")
             + paragraphs([f"The first {_MOST_ROWS} of {len(rows)} runs are shown; runs.csv has all"] if len(rows) > _MOST_ROWS else [])
             + f"<p>To make one of them alone, with the errors of its mesh too; the first, for example:</p>\n<pre>{escaped(command)}</pre>\n")

@@ -6,9 +6,9 @@ import math
 import os
 import stat
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from hashlib import sha256
 from itertools import islice
 from pathlib import Path
@@ -46,7 +46,7 @@ class Plan:
                     ("beam.width", "beam.thickness"): [(0.016, 0.008), (0.02, 0.01)]})
 
     With `samples`, each combination is run so many times with numbers that scatter: p exp(s z),
-    with z normal. `scatter` has the relative standard deviations s by key; left out, they are those
+    with z normal or, with distribution="uniform", uniform from -sqrt(3) to sqrt(3). `scatter` has the relative standard deviations s by key; left out, they are those
     of the case, its [scatter]. A sample is determined by `seed` and its number, and the same at
     every combination of the axes. Samples have no [scatter] of their own any more.
     """
@@ -58,6 +58,7 @@ class Plan:
     seed: int = 1
     error_bars: str | None = None  #: as in `subimpact.run`
     timeout: float | None = None  #: s per case; a case that takes longer has the outcome "timed_out"
+    distribution: str = "normal"  #: of samples; or "uniform"
 
     def __post_init__(self) -> None:
         self._check_numbers()
@@ -88,6 +89,8 @@ class Plan:
         ):
             if not is_whole(value, least, most):
                 raise PlanError(f"{name} is {value!r}; allowed: a whole number, {least} to {most}; take one")
+        if self.distribution not in ("normal", "uniform"):
+            raise PlanError(f"distribution is {self.distribution!r}; allowed: \"normal\", \"uniform\"")
         self.timeout = seconds(self.timeout, PlanError)
         if not isinstance(self.axes, Mapping):
             raise PlanError(f"axes is {self.axes!r}; allowed: lists of values by key")
@@ -188,7 +191,8 @@ class Plan:
         settings = {key: value for keys, point in reversed(points) for key, value in zip(keys, point)}
         random = np.random.default_rng((int(self.seed), sample))
         for key, deviation in self._drawn.items():
-            settings[key] = _drawn(random, key, settings[key] if key in settings else self.case[key], deviation)
+            draw = random.standard_normal if self.distribution == "normal" else partial(random.uniform, -math.sqrt(3), math.sqrt(3))
+            settings[key] = _drawn(draw, key, settings[key] if key in settings else self.case[key], deviation)
         return list(settings.items())
 
     def case_of(self, number: int) -> Case:
@@ -270,11 +274,11 @@ def is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def _drawn(random: np.random.Generator, key: str, value: float, deviation: float) -> float:
+def _drawn(draw: Callable[[], float], key: str, value: float, deviation: float) -> float:
     """A number that scatters; values that the key refuses are drawn again."""
     for _ in range(_MOST_DRAWS):
         try:
-            return float(checked(key, value * math.exp(deviation * random.standard_normal())))
+            return float(checked(key, value * math.exp(deviation * draw())))
         except CaseError:
             pass
     raise CaseError(f"{key} scatters out of its range: no value of {_MOST_DRAWS} draws about {value:g} is allowed; make its scatter "
@@ -303,7 +307,7 @@ def _parse(text: str) -> dict[str, Any]:
     return tables
 
 
-_TABLES = ("case", "set", "axes", "together", "scatter", "samples", "seed", "error_bars", "timeout")
+_TABLES = ("case", "set", "axes", "together", "scatter", "samples", "seed", "error_bars", "timeout", "distribution")
 
 
 def _plan_of(tables: dict[str, Any], directory: Path) -> Plan:
@@ -334,6 +338,7 @@ def _plan_of(tables: dict[str, Any], directory: Path) -> Plan:
         seed=tables.get("seed", 1),
         error_bars=tables.get("error_bars"),
         timeout=tables.get("timeout"),
+        distribution=tables.get("distribution", "normal"),
     )
 
 

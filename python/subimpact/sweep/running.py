@@ -184,6 +184,7 @@ def sweep(
     seed: int = 1,
     error_bars: str | None = None,
     timeout: float | str | None = None,
+    distribution: str = "normal",
     workers: int | None = None,
     memory: float | None = None,
     executor: Any = None,
@@ -196,7 +197,7 @@ def sweep(
 
         sweep(case, {"striker.velocity": np.linspace(2, 16, 50)}, out="by-velocity")
 
-    case, axes, scatter, samples, seed, error_bars, timeout
+    case, axes, scatter, samples, seed, error_bars, timeout, distribution
                 what is run: see `Plan`. A Plan may stand in place of the case
     out         the directory of the results: the store (sweep.sqlite) and its tables runs.csv and
                 sub_impacts.csv. A sweep that was stopped, by whatever, goes on from there; cases of
@@ -221,7 +222,7 @@ def sweep(
         plan = case
     else:
         limit = seconds(timeout, PlanError)
-        plan = Plan(case, {} if axes is None else axes, scatter, samples, seed, error_bars, limit)
+        plan = Plan(case, {} if axes is None else axes, scatter, samples, seed, error_bars, limit, distribution)
         if not plan.keys():
             raise PlanError('nothing differs from case to case; give axes, such as {"striker.mass": [0.1, 0.2]}')
     numbers = range(len(plan))[slice(*only)] if only else range(len(plan))

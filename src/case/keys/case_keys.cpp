@@ -299,7 +299,7 @@ std::vector<CaseKey> with_scatter(std::vector<CaseKey> keys) {
 
 // clang-format off
 std::vector<CaseKey> make_case_keys() {
-  const Range poisson = between("from 0 to 0.5", 0.0, 0.5), fraction = between("from 0 to 1", 0.0, 1.0);
+  const Range poisson = between("from 0 to 0.5", 0.0, 0.5), fraction = between("from 0 to 1, or a length such as \"0.3 m\" up to the beam's", 0.0, 1.0);
   const char* const none = "none; needed by shapes that name it";
   const auto of_plane = [](const Case& c) { return c.scene.beam.fixed; };
   return {

@@ -222,9 +222,10 @@ void add_pulls(const Beam& beam, const Result& result, std::vector<Beyond>& foun
   const auto& pull = result.reactions[*pulls]->largest;
   found.push_back(
       {"support_pulls",
-       fmt::format("a support pulls the beam by up to {} N, at x = {} at {:.4g} us: a beam that "
+       fmt::format("a support pulls the beam by up to {} N, at x = {} at {}: a beam that "
                    "only rests on it would lift off there, which the model leaves out",
-                   with_significant(pull.value, 3), *pulls == 0 ? "0" : "length", us * pull.time)});
+                   with_significant(pull.value, 3), *pulls == 0 ? "0" : "length",
+                   instant_text(pull.time, 4))});
 }
 
 }  // namespace
@@ -277,10 +278,10 @@ std::vector<Beyond> beyond_the_model(const Case& input, const Result& result) {
       "beam.theory = \"timoshenko\"",
       thickness);
   add(!is_rigid && is_held && set / beam.height() > largest_deflection, "stretching",
-      "the struck point moves by {:.3g} mm, {:.2g} times the thickness, on a beam held at both "
+      "the struck point moves by {} mm, {:.2g} times the thickness, on a beam held at both "
       "ends: if its supports cannot approach each other, it stretches, which stiffens it: set "
       "beam.axial = \"held\"",
-      mm * set, set / beam.height());
+      with_significant(mm * set, 3), set / beam.height());
   add_pulls(beam, result, found);
   if (!nose) return found;
   add(indentation / *nose > deepest_indentation, "indentation",

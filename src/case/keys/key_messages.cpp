@@ -94,12 +94,9 @@ std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
     return "; did you mean " + in_quotes(meant) + "?";
   }
   if (*text == "inf") return "; write it without quotes";
-  if (key.name.ends_with(".position") && value_in("m", *text)) {
-    return "; write the fraction of the beam's length";
-  }
   const std::string hint = key.type == KeyType::number ? decimal_comma_hint(*text) : "";
   if (const std::string_view unit = split_unit(*text).unit; hint.empty() && !unit.empty()) {
-    const std::string units = units_beside(key.unit);
+    const std::string units = units_beside(is_position(key) ? "m" : key.unit);
     const bool is_known = value_in(key.unit, *text).has_value();
     return units.empty() || is_known
                ? "; write the number without a unit"

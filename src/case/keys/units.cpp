@@ -95,6 +95,12 @@ std::optional<double> value_in(std::string_view unit, std::string_view text) {
   return std::nullopt;
 }
 
+bool is_position(const CaseKey& key) {
+  constexpr std::string_view names[] = {"beam.pivot", "striker.position", "output.sections",
+                                        "output.points"};
+  return std::ranges::find(names, key.name) != std::end(names);
+}
+
 KeyValue in_unit_of(const CaseKey& key, KeyValue value) {
   if (const auto* texts = std::get_if<std::vector<std::string>>(&value);
       texts != nullptr && key.type == KeyType::numbers) {

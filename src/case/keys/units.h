@@ -24,6 +24,9 @@ NumberAndUnit split_unit(std::string_view text);
 /// quantity than that of `unit`.
 std::optional<double> value_in(std::string_view unit, std::string_view text);
 
+/// Whether a key has positions along the beam, as fractions of its length or, in a text, as lengths.
+bool is_position(const CaseKey& key);
+
 /// The number that a text with a unit stands for, where the key is a number; else the value itself.
 KeyValue in_unit_of(const CaseKey& key, KeyValue value);
 

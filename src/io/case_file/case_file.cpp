@@ -128,7 +128,7 @@ class Reader {
       if (given == given_.end()) continue;
       places[key.name] = given->second.place;
       const double length = read.scene.beam.length;
-      const bool in_metres = make_fractions(given->second.value, length);
+      const bool in_metres = make_fractions(key, given->second.value, length);
       if (const auto problem = problem_with(key, given->second.value)) {
         complain(given->second.place,
                  key.name + " " + *problem +
@@ -190,7 +190,20 @@ class Reader {
   }
 
   // Fractions of the beam's length in place of lengths; whether there were any.
-  static bool make_fractions(KeyValue& value, double length) {
+  static bool make_fractions(const CaseKey& key, KeyValue& value, double length) {
+    if (is_position(key)) {
+      CaseKey in_metres = key;
+      in_metres.unit = "m";
+      KeyValue lengths = in_unit_of(in_metres, value);
+      if (lengths == value) return false;
+      if (auto* list = std::get_if<std::vector<double>>(&lengths)) {
+        for (double& x : *list) x /= length;
+      } else {
+        std::get<double>(lengths) /= length;
+      }
+      value = std::move(lengths);
+      return true;
+    }
     auto* placed = std::get_if<PlacedValues>(&value);
     bool any = false;
     if (placed == nullptr) return any;

@@ -43,7 +43,7 @@ Json number_schema(const char* type, const Limits& limits) {
 // A number, or a text of a number with its unit.
 Json number_or_unit_schema(const CaseKey& key) {
   Json schema = number_schema("number", key.limits);
-  std::string units = units_beside(key.unit, "|");
+  std::string units = units_beside(is_position(key) ? "m" : key.unit, "|");
   if (units.empty()) return schema;
   for (std::size_t at = 0; (at = units.find_first_of("^.", at)) != units.npos; at += 2) {
     units.insert(at, "\\");
@@ -109,7 +109,7 @@ Json value_schema(const CaseKey& key) {
               {"minItems", 2},
               {"maxItems", 2}};
     case KeyType::numbers:
-      return {{"type", "array"}, {"items", number_schema("number", key.limits)}};
+      return {{"type", "array"}, {"items", number_or_unit_schema(key)}};
     case KeyType::placed:
       return placed_schema(key);
   }

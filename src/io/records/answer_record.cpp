@@ -21,7 +21,8 @@ static std::span<const Named<AnswerKey>> names_of(AnswerKey) {
 static std::span<const Named<WhyNot>> names_of(WhyNot) {
   static const auto names = in_order<WhyNot>(
       {"no_contact", "in_contact", "approaching", "met_at_rest", "none_uncertain", "does_not_rest", "fixed",
-       "stays_elastic", "yields", "no_yield_stress", "no_moduli", "not_computed", "no_supports"});
+       "stays_elastic", "yields", "no_yield_stress", "no_moduli", "not_computed", "no_supports",
+       "turns_too_far"});
   return names;
 }
 std::span<const Named<BodyPart>> names_of(BodyPart) {
@@ -40,7 +41,7 @@ static std::span<const Named<StrikeVerdict::Contact>> names_of(StrikeVerdict::Co
   return names;
 }
 static std::span<const Named<StrikeVerdict::Beam>> names_of(StrikeVerdict::Beam) {
-  static const auto names = in_order<StrikeVerdict::Beam>({"rigid", "elastic", "bent", "not_computed"});
+  static const auto names = in_order<StrikeVerdict::Beam>({"rigid", "elastic", "bent", "not_computed", "turned_too_far"});
   return names;
 }
 
@@ -48,7 +49,7 @@ const Record<StrikeVerdict>& verdict_record() {
   static const Record<StrikeVerdict> record = {
       {"certainty", "of the sub-impacts: all, some, none, not_known", &StrikeVerdict::certainty},
       {"contact", "none, over, may_not_be_over, not_over, rests", &StrikeVerdict::contact},
-      {"beam", "rigid, elastic, bent; not_computed: it has yielded", &StrikeVerdict::beam},
+      {"beam", "rigid, elastic, bent; not_computed: it has yielded; turned_too_far: by more than 0.5 rad, the numbers are no results", &StrikeVerdict::beam},
       {"text", "one sentence", &StrikeVerdict::text}};
   return record;
 }

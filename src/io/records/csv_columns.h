@@ -4,7 +4,8 @@
 /// that it holds; heading, writer and documentation follow from the list of columns.
 ///
 /// Numbers have the 17 digits that determine a double, unless their column has fewer. A value that
-/// is absent is an empty cell. No cell is quoted: commas within texts become semicolons.
+/// is absent is an empty cell. A text with a comma or a quote is quoted, its quotes doubled; an end of
+/// a line in it becomes a space, so that each row is one line.
 
 #include <algorithm>
 #include <array>
@@ -76,7 +77,13 @@ inline void append_cell(std::string& text, const Cell& cell, int digits, NumberW
   if (const auto* real = std::get_if<double>(&cell)) numbers.append(text, *real, digits);
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) text += std::to_string(*whole);
   if (const auto* words = std::get_if<std::string>(&cell)) {
-    for (const char c : *words) text.push_back(c == ',' ? ';' : c == '\n' ? ' ' : c);
+    const bool is_quoted = words->find_first_of(",\"") != words->npos;
+    if (is_quoted) text.push_back('"');
+    for (const char c : *words) {
+      text.push_back(c == '\n' || c == '\r' ? ' ' : c);
+      if (c == '"') text.push_back(c);
+    }
+    if (is_quoted) text.push_back('"');
   }
 }
 

@@ -263,7 +263,8 @@ constexpr const char* words_of_reasons[] = {
     "the beam has no yield stress",
     "the contact law does not have it",
     "it is not computed: the run failed, or output.shapes = 0",
-    "the beam has no supports"};
+    "the beam has no supports",
+    "sections turn too far for this model"};
 
 std::string label_of(const Result& result, const Answer& answer) {
   std::string label = words_of(answer.key).label;
@@ -361,14 +362,20 @@ std::string verdict_words(const Result& result) {
   const StrikeVerdict& verdict = result.verdict;
   const std::string end = duration_text(result.outcome.time);
   const auto find = [&](AnswerKey key) -> const Answer& { return answer_of(result.answers, key); };
+  std::string before;
+  if (verdict.beam == Beam::turned_too_far) {
+    before = fmt::format("Not a result: rotations of {:.2g} rad are beyond a model of small ones. ",
+                         result.largest_rotation);
+  }
   if (verdict.contact == Contact::none) {
-    return fmt::format("No contact in {}{}.", end,
+    return fmt::format("{}No contact in {}{}.", before, end,
                        verdict.certainty == StrikeVerdict::Certainty::all ? ", for certain" : "");
   }
   const Answer& set = find(AnswerKey::permanent_set);
   std::string beam;
   switch (verdict.beam) {
     case Beam::rigid:
+    case Beam::turned_too_far:
       break;
     case Beam::elastic: {
       const double share = find(AnswerKey::yield_share).value.value_or(0.0);
@@ -392,7 +399,7 @@ std::string verdict_words(const Result& result) {
       {Contact::rests, "in the end they rest on each other"}};
   const auto state =
       std::ranges::find(states, verdict.contact, &std::pair<Contact, const char*>::first);
-  return fmt::format("{} in {}{}; up to {}; {}{}.",
+  return fmt::format("{}{} in {}{}; up to {}; {}{}.", before,
                      counted(result.sub_impacts.size(), "sub-impact"), end,
                      result.error_estimate ? certain_words(result) : ", certainty not known",
                      with_total_error(find(AnswerKey::largest_force)), beam, state->second);

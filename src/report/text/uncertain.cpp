@@ -14,7 +14,6 @@ namespace {
 constexpr double largest_error = 1e15;
 constexpr double rounding_slack = 1e-9;  // of a digit: 0.3 is three units of 0.1, not four
 
-constexpr double largest_plain = 1e7;                     // of the usual unit
 constexpr int smallest_prefix = -15, largest_prefix = 9;  // powers of ten
 constexpr const char* prefixes[] = {"f", "p", "n", "u", "m", "", "k", "M", "G"};
 
@@ -262,7 +261,7 @@ ReadUnit unit_for(double size, const Measure& measure) {
   const std::string_view si = measure.si;
   const double in_usual = size * std::pow(10.0, -measure.usual);
   const bool is_usual = !(size > 0.0 && std::isfinite(size)) ||
-                        (in_usual >= measure.smallest && in_usual < largest_plain);
+                        (in_usual >= measure.smallest && in_usual < measure.largest);
   const int whole = exponent_of(size);
   const int exponent = is_usual ? measure.usual : 3 * static_cast<int>(std::floor(whole / 3.0));
   const bool takes_large = si == as_force.si || si == as_energy.si;
@@ -283,7 +282,7 @@ std::string with_unit(const std::string& number, const ReadUnit& unit) {
 
 std::string time_text(double seconds, int digits) {
   const ReadUnit unit = unit_for(std::abs(seconds), as_time);
-  return with_unit(fmt::format("{:.{}g}", unit.per_si * seconds, digits), unit);
+  return with_unit(with_significant(unit.per_si * seconds, digits), unit);
 }
 
 std::string error_text(double seconds) {

@@ -35,11 +35,11 @@ struct Measure {
   const char* si;  ///< "N s"; empty: a ratio
   int usual = 0;   ///< -6: microseconds
   int most_digits = 6;
-  double smallest = 1e-3;  ///< of the usual unit; one with another prefix below it
+  double smallest = 1e-3, largest = 1e7;  ///< of the usual unit; beyond them another prefix
 };
 inline constexpr Measure as_ratio{""}, as_force{"N"}, as_impulse{"N s"}, as_energy{"J"},
-    as_velocity{"m/s"}, as_rotation{"rad"}, as_time{"s", -6, 9}, as_instant{"s", -6, 9, 1.0},
-    as_length{"m", -3}, as_gap{"m", -6}, as_stress{"Pa", 6, 3};
+    as_velocity{"m/s"}, as_rotation{"rad"}, as_time{"s", -6, 9, 1e-3, 1e4}, as_instant{"s", -6, 9, 1.0, 1e4},
+    as_length{"m", -3, 6, 1e-3, 1e4}, as_gap{"m", -6}, as_stress{"Pa", 6, 3};
 /// Forces from a kilonewton on in kilonewtons.
 inline constexpr Measure as_answered_force{"N", 3, 6, 1.0};
 
@@ -50,7 +50,7 @@ struct ReadUnit {
   bool is_power = false;  ///< "1e-27 N s"
 };
 
-/// The unit in which a size (SI) is read: the usual one from Measure::smallest to 1e7 such units;
+/// The unit in which a size (SI) is read: the usual one from Measure::smallest to Measure::largest;
 /// else one with another prefix or with a power of ten, of which the size is 1 to 1000.
 ReadUnit unit_for(double size, const Measure& measure);
 

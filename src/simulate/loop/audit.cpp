@@ -75,9 +75,9 @@ void Audit::check_impulse(double t, double impulse, double force_integral) {
   if (!(std::abs(error) <= limits_.energy)) {
     fail(
         t, OutcomeKind::inaccurate,
-        "the impulse of the sub-impact that ends at {:.6g} us differs from its integrated force by "
+        "the impulse of the sub-impact that ends at {} differs from its integrated force by "
         "{:+.2e} of m v0, tolerated are {:.1e}",
-        us * t, error, limits_.energy);
+        instant_text(t), error, limits_.energy);
   }
 }
 

@@ -222,20 +222,20 @@ void EventLoop::check_root(const EventFunction& function, double time, const Sta
   if (const auto root = integrator_.root()) tolerated += std::abs(at.rate) * root->tolerance;
   if (!(std::abs(at.value) <= tolerated)) {
     audit_.fail(time, OutcomeKind::inaccurate,
-                "{} was located at {:.6g} us, but its condition is missed there by {:.2e} {}, "
+                "{} was located at {}, but its condition is missed there by {:.2e} {}, "
                 "tolerated are {:.1e}",
-                to_string(function.kind), us * time, at.value, function.of_rate() ? "m/s" : "m",
+                to_string(function.kind), instant_text(time), at.value, function.of_rate() ? "m/s" : "m",
                 tolerated);
   }
   if (!(time >= last_event_)) {
     audit_.fail(time, OutcomeKind::inaccurate,
-                "{} was located at {:.6g} us, before the event that precedes it",
-                to_string(function.kind), us * time);
+                "{} was located at {}, before the event that precedes it",
+                to_string(function.kind), instant_text(time));
   }
   if (function.kind == EventKind::contact_begins) contact_start_ = time;
   if (function.kind == EventKind::contact_ends && !(time > contact_start_)) {
     audit_.fail(time, OutcomeKind::inaccurate,
-                "the contact that begins at {:.6g} us ends at the same instant", us * time);
+                "the contact that begins at {} ends at the same instant", instant_text(time));
   }
   last_event_ = time;
 }

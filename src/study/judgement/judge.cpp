@@ -28,6 +28,12 @@ constexpr double rounding_of_times = 1e-14;  // relative
 
 using Kind = Reason::Kind;
 
+// The near misses from one time to another, s.
+auto between(const std::vector<NearMiss>& all, double from, double to) {
+  return std::ranges::subrange(std::ranges::lower_bound(all, from, {}, &NearMiss::time),
+                               std::ranges::upper_bound(all, to, {}, &NearMiss::time));
+}
+
 }  // namespace
 
 bool of_mesh(std::span<const RunBeside> beside) {
@@ -151,10 +157,11 @@ std::optional<Reason> Judge::doubt_of(std::size_t i, double strictness) const {
 std::optional<Reason> Judge::doubt_of_flight(std::size_t i) const {
   if (!all_[i].end) return {};
   for (const std::size_t k : of_existence_) {
-    for (const SubImpact* extra : partners_[k].extra) {
-      if (extra->start < flight_end(i) && beside_[k].result.end_of(*extra) > *all_[i].end) {
-        return reason_beside(Kind::another_beside, k);
-      }
+    const auto extra = std::ranges::partition_point(partners_[k].extra, [&](const SubImpact* s) {
+      return beside_[k].result.end_of(*s) <= *all_[i].end;
+    });
+    if (extra != partners_[k].extra.end() && (*extra)->start < flight_end(i)) {
+      return reason_beside(Kind::another_beside, k);
     }
     if (stopped_before(k, flight_end(i))) return reason_beside(Kind::stopped_beside, k);
   }
@@ -321,7 +328,8 @@ double Judge::margin_error(const NearMiss& here, double length, double delta) co
       distance = std::abs(time - here.time);
       difference = other.of.gain * std::abs(margin - here.margin);
     };
-    for (const NearMiss& there : other.result.near_misses) {
+    for (const NearMiss& there :
+         between(other.result.near_misses, here.time - distance, here.time + distance)) {
       if (there.kind == here.kind) include(there.time, there.margin);
     }
     const auto& last = other.result.closest_approach;
@@ -353,8 +361,8 @@ std::optional<Reason> Judge::doubt_by_near_miss(NearMissKind kind, std::size_t i
   const bool opens = kind == NearMissKind::opening;
   const double start = opens ? all_[i].start : *all_[i].end;
   const double end = opens ? run_.end_of(all_[i]) : flight_end(i);
-  for (const NearMiss& here : run_.near_misses) {
-    if (here.kind != kind || here.time < start || here.time > end) continue;
+  for (const NearMiss& here : between(run_.near_misses, start, end)) {
+    if (here.kind != kind) continue;
     const double error =
         strictness * margin_error(here, end - start, delta(opens ? 2 * i : 2 * i + 1));
     // A contact that opens by less than the limit stays one.

@@ -22,6 +22,8 @@ constexpr double after_uncertain = 1.5;
 constexpr double loosest_rtol = 1e-2;
 constexpr double alike = 0.025;  // velocities at the end, over that of the strike
 
+using UncertainFlight = ErrorEstimate::UncertainFlight;
+
 void add_error(std::optional<double>& sum, double error) { sum = sum.value_or(0.0) + error; }
 
 // All errors of a sub-impact.
@@ -100,7 +102,11 @@ ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const R
     }
     if (const auto flight = judge.doubt_of_flight(i)) {
       set_first_unresolved(part, i + 1, *flight);
-      if (!estimate.doubt_after(i)) estimate.uncertain_flights.push_back({i, *flight});
+      auto& flights = estimate.uncertain_flights;
+      if (!estimate.doubt_after(i)) {
+        flights.insert(std::ranges::lower_bound(flights, i, {}, &UncertainFlight::after),
+                       {i, *flight});
+      }
     }
   }
   if (run.closest_approach) add_error(run.closest_approach->error, judge.approach_error());
@@ -151,8 +157,8 @@ ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
   const Outcome& until = other.result.outcome;
   ErrorEstimate::FinerMeshes found{
       until.completed() ? other.of.description
-                        : fmt::format("{}, up to {:.6g} us where their run stopped,",
-                                      other.of.description, us * until.time),
+                        : fmt::format("{}, up to {} where their run stopped,",
+                                      other.of.description, instant_text(until.time)),
       there.size(), static_cast<std::size_t>(n_same), std::nullopt, first_mesh_doubt(input, run)};
   if (!here.sub_impacts.empty() && !there.empty() && here.sub_impacts[0].end && there[0].end) {
     const double change = *there[0].end - *here.sub_impacts[0].end;
@@ -222,7 +228,7 @@ void find_first_unresolved(const Result& run, std::span<const RunBeside> beside,
       estimate.reason = run.sub_impacts[i].doubt;
       return;
     }
-    const ErrorEstimate::UncertainFlight* flight = estimate.doubt_after(i);
+    const UncertainFlight* flight = estimate.doubt_after(i);
     if (!flight) continue;
     estimate.first_unresolved = i + 1;
     estimate.reason = flight->reason;

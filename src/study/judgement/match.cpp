@@ -41,16 +41,6 @@ std::optional<std::size_t> best_partner(const SubImpact& here,
   return best;
 }
 
-// The nearest entry of a list of pairs, from `from` in steps of `step`, that both runs have.
-const MatchedPair* nearest_match(const std::vector<MatchedPair>& pairs, std::size_t from,
-                                 std::ptrdiff_t step) {
-  for (auto i = static_cast<std::ptrdiff_t>(from); i >= 0 && i < std::ssize(pairs); i += step) {
-    const MatchedPair& pair = pairs[static_cast<std::size_t>(i)];
-    if (pair.first && pair.second) return &pair;
-  }
-  return nullptr;
-}
-
 bool correspond(const Result& run, const NearMiss& a, const Result& other, const NearMiss& b) {
   return a.kind == b.kind && first_in_doubt(run, a) == first_in_doubt(other, b);
 }
@@ -143,13 +133,21 @@ Counterparts counterparts(const std::vector<SubImpact>& base, const std::vector<
   for (const MatchedPair& pair : pairs) {
     if (pair.first && pair.second) found.of[*pair.first] = &other[*pair.second];
   }
+  // The next pair that both runs have, from each on.
+  std::vector<const MatchedPair*> next_match(pairs.size() + 1, nullptr);
+  for (std::size_t i = pairs.size(); i-- > 0;) {
+    next_match[i] = pairs[i].first && pairs[i].second ? &pairs[i] : next_match[i + 1];
+  }
+  const MatchedPair* last_match = nullptr;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const MatchedPair& here = pairs[i];
-    if (here.first && here.second) continue;
+    if (here.first && here.second) {
+      last_match = &here;
+      continue;
+    }
     const SubImpact& alone = here.first ? base[*here.first] : other[*here.second];
     bool is_part = false;  // of a contact that the other run has whole
-    for (const std::ptrdiff_t step : {-1, 1}) {
-      const MatchedPair* beside = nearest_match(pairs, i, step);
+    for (const MatchedPair* beside : {last_match, next_match[i]}) {
       if (beside == nullptr) continue;
       const SubImpact& whole = here.first ? other[*beside->second] : base[*beside->first];
       if (!(overlap(alone, whole) > 0.0)) continue;
@@ -157,7 +155,7 @@ Counterparts counterparts(const std::vector<SubImpact>& base, const std::vector<
       is_part = true;
     }
     if (here.first || is_part) continue;
-    if (const MatchedPair* next = nearest_match(pairs, i, 1)) {
+    if (const MatchedPair* next = next_match[i]) {
       found.follows_new_one[*next->first] = true;
     }
   }

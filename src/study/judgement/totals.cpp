@@ -1,7 +1,7 @@
 #include "study/judgement/totals.h"
 
 #include <map>
-#include <ranges>
+#include <utility>
 
 #include "numerics/estimates.h"
 #include "study/judgement/judge.h"
@@ -148,15 +148,19 @@ double end_of(const ZoneSummary& zone, const Result& run) {
   return zone.end.value_or(run.outcome.time);
 }
 
-// The zone of another run that overlaps one of a run most; none if none does.
-std::optional<ZoneSummary> counterpart(const ZoneSummary& here, const Result& run,
-                                       const Result& other) {
-  std::optional<ZoneSummary> best;
-  const auto overlap = [&](const ZoneSummary& there) {
-    return std::min(end_of(there, other), end_of(here, run)) - std::max(there.start, here.start);
-  };
-  for (const ZoneSummary& there : summarise_zones(other.sub_impacts)) {
-    if (overlap(there) > (best ? overlap(*best) : 0.0)) best = there;
+// The zone of another run, of those it has, that overlaps one of a run most; null if none does.
+const ZoneSummary* counterpart(const ZoneSummary& here, const Result& run, const Result& other,
+                               const std::vector<ZoneSummary>& zones) {
+  const ZoneSummary* best = nullptr;
+  double most = 0.0;
+  const double end = end_of(here, run);
+  auto there = std::ranges::partition_point(
+      zones, [&](const ZoneSummary& zone) { return end_of(zone, other) <= here.start; });
+  for (; there != zones.end() && there->start < end; ++there) {
+    const double overlap = std::min(end_of(*there, other), end) - std::max(there->start, here.start);
+    if (!(overlap > most)) continue;
+    most = overlap;
+    best = &*there;
   }
   return best;
 }
@@ -164,24 +168,29 @@ std::optional<ZoneSummary> counterpart(const ZoneSummary& here, const Result& ru
 // The number of sub-impacts of a zone. Its error: how many of them, and of the flights after them,
 // are not certain; where there are any, or a run shows errors of totals alone, at least the
 // difference to each run beside from the zone's start to that of the next. 0 where all is certain.
-Total count_of(const ZoneSummary& zone, const Result& run, std::span<const RunBeside> beside,
-               const ErrorEstimate& estimate) {
-  const auto is_here = [&](const SubImpact& s) { return s.zone == zone.zone; };
-  const auto next = std::ranges::find(run.sub_impacts, zone.zone + 1, &SubImpact::zone);
-  const double from = zone.zone == 1 ? -HUGE_VAL : zone.start;
-  const double until = next == run.sub_impacts.end() ? HUGE_VAL : next->start;
-  const auto n_doubts =
-      std::ranges::count_if(run.sub_impacts,
-                            [&](const SubImpact& s) { return is_here(s) && !*s.certain; }) +
-      std::ranges::count_if(estimate.uncertain_flights, [&](const auto& flight) {
-        return is_here(run.sub_impacts[flight.after]);
-      });
+// `first`: of its sub-impacts, from 0.
+Total count_of(const ZoneSummary& zone, std::size_t first, const Result& run,
+               std::span<const RunBeside> beside, const ErrorEstimate& estimate) {
+  const auto n = static_cast<std::size_t>(zone.n_sub_impacts);
+  const auto here = std::span(run.sub_impacts).subspan(first, n);
+  const bool is_last = first + n == run.sub_impacts.size();
+  const double from = first == 0 ? -HUGE_VAL : zone.start;
+  const double until = is_last ? HUGE_VAL : run.sub_impacts[first + n].start;
+  const auto n_flights_before = [&](std::size_t i) {
+    const auto& flights = estimate.uncertain_flights;
+    return std::ranges::lower_bound(flights, i, {}, &ErrorEstimate::UncertainFlight::after) -
+           flights.begin();
+  };
+  const auto n_doubts = std::ranges::count(here, std::optional(false), &SubImpact::certain) +
+                        n_flights_before(first + n) - n_flights_before(first);
   Total count{static_cast<double>(zone.n_sub_impacts), static_cast<double>(n_doubts)};
   for (const auto& [of, other] : beside) {
     if (!other.outcome.completed()) return {count.value, std::nullopt};
     if (of.of_rows && (n_doubts == 0 || !of.of_existence)) continue;
-    const auto n_there = std::ranges::count_if(
-        other.sub_impacts, [&](const SubImpact& s) { return s.start >= from && s.start < until; });
+    const auto n_before = [&all = other.sub_impacts](double time) {
+      return std::ranges::lower_bound(all, time, {}, &SubImpact::start) - all.begin();
+    };
+    const auto n_there = n_before(until) - n_before(from);
     count.error = std::max(*count.error, std::abs(count.value - static_cast<double>(n_there)));
   }
   return count;
@@ -218,28 +227,32 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
     }
     estimate.totals.push_back({quantity.name, total});
   }
+  std::map<const Result*, std::vector<ZoneSummary>> zones_of;
+  for (const RunBeside& other : beside) {
+    zones_of[&other.result] = summarise_zones(other.result.sub_impacts);
+  }
+  std::size_t next = 0;  // sub-impact
   for (const ZoneSummary& zone : summarise_zones(run.sub_impacts)) {
+    const std::size_t first = std::exchange(next, next + static_cast<std::size_t>(zone.n_sub_impacts));
     const auto total = [&](auto value) {
       return total_of(run, beside, usual_safety, [&](const Result& of) -> std::optional<double> {
         if (&of == &run) return value(zone, of);
-        const std::optional<ZoneSummary> there = counterpart(zone, run, of);
+        const ZoneSummary* there = counterpart(zone, run, of, zones_of.at(&of));
         return there ? std::optional<double>(value(*there, of)) : std::nullopt;
       });
     };
     using Zone = const ZoneSummary&;
     estimate.zones.push_back({total([](Zone z, Run) { return z.start; }), total(end_of),
                               total([](Zone z, Run) { return z.impulse; }),
-                              count_of(zone, run, beside, estimate)});
+                              count_of(zone, first, run, beside, estimate)});
     ZoneTotals& totals = estimate.zones.back();
     widen(totals.start, zone.start_error);
     widen(totals.end, zone.end_error);
     // The time at which its last sub-impact ends, if no other one may follow that.
-    const auto last =
-        std::ranges::find(run.sub_impacts | std::views::reverse, zone.zone, &SubImpact::zone);
-    const auto index = static_cast<std::size_t>(run.sub_impacts.rend() - last) - 1;
     const bool rows_have_all_errors =
         std::ranges::all_of(beside, [](const RunBeside& other) { return other.of.of_rows; });
-    const bool is_last = last->certain.value_or(false) && !estimate.doubt_after(index);
+    const bool is_last =
+        run.sub_impacts[next - 1].certain.value_or(false) && !estimate.doubt_after(next - 1);
     if (zone.end_error && rows_have_all_errors && is_last) totals.end.error = zone.end_error;
   }
   Total count = sum_of_counts(estimate.zones);

@@ -108,6 +108,7 @@ class Search {
         break;
       }
       const bool grows = best_ && level.result.n_certain() > best_->result.n_certain();
+      if (best_) grew_ = grows;
       best_ = std::move(level);
       if (!input_.accuracy.event_times) {
         work_limit_ = grows ? work_limit_while_certainty_grows : default_work_limit;
@@ -198,6 +199,7 @@ class Search {
       return false;
     }
     best_.reset();
+    grew_.reset();
     return true;
   }
 
@@ -308,6 +310,7 @@ class Search {
 
   void describe(WithinRun& run) const {
     Result& result = run.result;
+    result.certainty_grew = grew_;
     result.choice = model_.reason + (obstacle_ ? "; " + words_of(obstacle_) : "");
     if (!input_.accuracy.event_times) return;
     ToleranceOutcome& outcome = result.tolerance.emplace();
@@ -345,6 +348,7 @@ class Search {
   bool yields_ = false;
   bool may_change_model_ = true;
   bool has_rows_ = false;  // the last run
+  std::optional<bool> grew_;  // Result::certainty_grew
   ChosenModel model_;
   std::optional<Refinement> refinement_;
   std::optional<Level> best_;       // the last one that ended

@@ -62,7 +62,10 @@ TEST(CaseFile, PlacesThingsByFractionsAndByLengths) {
   for (const double length : {0.7112, 0.4}) {
     const std::string of_beam = fmt::format("beam.length={}", length);
     const Case read =
-        paper_case_with({gauges, "beam.springs=[{position='0.1 m', stiffness=1e3}]", of_beam});
+        paper_case_with({gauges, "beam.springs=[{position='0.1 m', stiffness=1e3}]", of_beam,
+                         "striker.position=100 mm", "output.points=['0.1 m', '200 mm']"});
+    EXPECT_EQ(read.scene.striker.position, 0.1 / length);
+    EXPECT_EQ(read.output.points, (std::vector{0.1 / length, 0.2 / length}));
     ASSERT_EQ(read.output.gauges.size(), 2u);
     EXPECT_EQ(read.output.gauges[0].position, 0.25);
     EXPECT_EQ(read.output.gauges[0].face, Face::back);

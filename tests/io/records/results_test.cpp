@@ -1,6 +1,7 @@
 #include "subimpact/io/results.h"
 #include "io/records/run_tables.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -107,6 +108,14 @@ TEST(EventsCsv, LeavesAnErrorEmptyThatIsNotKnownAndMarksWhatIsCertain) {
   EXPECT_EQ(rows[2][24], "");
   EXPECT_NE(rows[1][24], "");
   for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(rows[i][11], "1");
+}
+
+TEST(EventsCsv, QuotesTextsWithCommasAndQuotesAndKeepsEachRowOnOneLine) {
+  Result result = sample_result_with_errors(2);
+  result.sub_impacts[2].doubt = Reason{{}, "it parts, \"then\"\nends"};
+  const std::string text = csv_of<SubImpact>(result);
+  EXPECT_NE(text.find(",\"it parts, \"\"then\"\" ends\","), text.npos) << text;
+  EXPECT_EQ(std::ranges::count(text, '\n'), 4);
 }
 
 TEST(NumbersOfTables, AreTheSameWhateverWasWrittenBefore) {

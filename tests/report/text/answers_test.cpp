@@ -130,6 +130,18 @@ TEST(Answers, OnRestHaveTheErrorOfItsStart) {
   expect_numbers(answer_to(paper_case(), result, rests_since), "5000.0 us", "0.3", "not known");
 }
 
+TEST(Answers, OnTimesHaveNoPowersOfTenWhateverTheLengthOfTheRun) {
+  for (const auto& [later, rest, text] : {std::tuple{15.62e-3, 20.62e-3, "20.6200 ms"},
+                                          std::tuple{1.3, 1.305, "1.3050000 s"}}) {
+    Result result = sample_result_with_errors(3);
+    result.sub_impacts.back().start += later;
+    result.outcome.time += later;
+    result.rests_since = rest;
+    EXPECT_EQ(answer_to(paper_case(), result, rests_since).text, text);
+    expect_not_in(summary_of(paper_case(), result, true), "e+0");
+  }
+}
+
 TEST(Answers, ListZonesWithTheirErrors) {
   const Answer answer = answer_of_sample(zones);
   ASSERT_EQ(answer.items.size(), 2u);
@@ -264,6 +276,23 @@ TEST(TheVerdict, HasTheTotalErrorAndWhatIsNotSure) {
   result.rests_since.reset();
   result.sub_impacts.clear();
   expect_in(answered(paper_case(), result).verdict.text, "No contact in 8 ms");
+}
+
+TEST(TheVerdict, CallsNoResultWhatTurnsFurtherThanTheModelHoldsAndPrintsNoPermanentSet) {
+  Result result = sample_result_with_errors(3);
+  result.used.n_sections = 11;
+  result.n_yielded_sections = 3;
+  result.plastic_zones = {{.from = 0.1, .to = 0.2, .rotation = 0.4}};
+  result.envelope.resize(3);
+  result.envelope[1].set_from_supports = 0.4;
+  result.largest_rotation = 0.49;
+  EXPECT_EQ(answer_to(paper_case(), result, permanent_set).value, 0.4);
+  result.largest_rotation = 11.9;
+  const Result turned = answered(paper_case(), result);
+  EXPECT_EQ(answer_of(turned.answers, permanent_set).why, WhyNot::turns_too_far);
+  EXPECT_EQ(turned.verdict.beam, StrikeVerdict::Beam::turned_too_far);
+  expect_in(turned.verdict.text, "Not a result: rotations of 12 rad");
+  expect_not_in(summary_of(paper_case(), result, true), "400.0 mm");
 }
 
 TEST(TheScreen, NamesEachPartThatMattersOnceWithWhatToDo) {

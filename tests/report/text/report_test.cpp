@@ -112,6 +112,19 @@ TEST(Advice, OnUncertainSubImpactsOfAChosenMeshIsAToleranceBelowTheErrors) {
   EXPECT_EQ(advice_on(result), "--within 0.7us\n");  // a tenth of the shortest contacts
 }
 
+TEST(Advice, IsNoFinerMeshWhereTheLastOneMadeNoMoreCertainAndNoLongerRunOfBodiesAtRest) {
+  Result result = result_that_took_a_while(2);
+  result.choice = "sections yield";
+  result.certainty_grew = false;
+  EXPECT_EQ(advice_on(result), "");
+  result.certainty_grew = true;
+  EXPECT_EQ(advice_on(result), "--within 0.05us\n");
+  result.contact_over = false;
+  expect_in(advice_on(result), "time.end");
+  result.rests_since = 5e-3;
+  expect_not_in(advice_on(result), "time.end");
+}
+
 TEST(Advice, OnUncertainSubImpactsOfAMeshThatTheCaseFixesFreesIt) {
   GivenKeys given;
   given.in_file = {"model.segments", "model.section", "solver.rtol", "beam.length"};

@@ -47,7 +47,8 @@ function logTicks(from, to) {
 function logRange(values) {
   const positive = values.filter((value) => value > 0);
   if (positive.length === 0) return [0.1, 10];
-  const low = Math.min(...positive), high = Math.max(...positive);
+  let [low, high] = [Infinity, 0];  // of more values than a function may have arguments
+  for (const value of positive) [low, high] = [Math.min(low, value), Math.max(high, value)];
   return [roundSpacing(low / 3), roundSpacing(1.6 * high)];
 }
 

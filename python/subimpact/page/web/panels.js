@@ -262,7 +262,7 @@ class Timeline {
   // In µs; of bars, those down to a thousandth of the shortest duration.
   shownValues() {
     const values = this.marks.map(({value}) => 1e6 * value).filter((value) => value > 0);
-    const least = Math.min(...values) / 1e3;
+    const least = values.reduce((low, value) => Math.min(low, value), Infinity) / 1e3;
     const bars = this.bars.flatMap(({name}) => this.marks.map((mark) => 1e6 * mark[name]));
     return [...values, ...bars.filter((value) => value > least)];
   }
