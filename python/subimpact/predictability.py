@@ -282,6 +282,7 @@ def scatter(
     if len(found.study.keys) < len(keys):
         raise CaseError(f"the scatter of event times is not known: {found.study.remarks[-1]}", "scatter")
     base = Case.from_text(_core.affordable(chosen._load(), N_SAMPLES))
+    base["output.shapes"] = base["time.end"]  # of which the permanent set is known
     if base["accuracy.event_times"] is not None:
         del base["accuracy.event_times"]
     plan = Plan(base, samples=N_SAMPLES, distribution=distribution)

@@ -56,6 +56,14 @@ def test_the_impulse_of_a_zone_scatters_as_the_velocity_of_the_striker(study):
     assert found.zones[0]["impulse_scatter_Ns"] == pytest.approx(found.base["striker.mass"] * deviation, rel=1e-12)
 
 
+def test_a_beam_that_yields_has_its_permanent_set_among_the_totals_whatever_the_rows(small_strike):
+    case = small_strike.changed({"model.section": "exact", "solver.method": "nystrom", "time.end": 3e-4, "scatter.striker.velocity": 0.01})
+    found = si.scatter(case, jobs=2, distribution="uniform")
+    total = found.totals["permanent_set_m"]
+    assert total.nominal > 1e-4 and 0 < total.standard_deviation < 0.1 * total.mean
+    assert "set: " in found.report()
+
+
 def test_no_deviation_is_more_than_possible(study):
     found = Scatter(study, dict.fromkeys(BY, 0.5))
     assert not (found.table["end_scatter_s"] > 1e-3).any()

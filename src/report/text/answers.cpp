@@ -243,7 +243,7 @@ constexpr Words words_of_keys[] = {{"sub-impacts", as_ratio, counts_note},
                                    {"dent", as_length},
                                    {"contact pressure", as_stress, pressure_note},
                                    {"permanent set", as_length, set_note},
-                                   {"share of first yield", as_ratio, share_note},
+                                   {"share of yield", as_ratio, share_note},
                                    {"largest reaction", as_answered_force, reactions_note},
                                    {"energy dissipated", as_energy, energy_note}};
 static_assert(std::size(words_of_keys) == static_cast<std::size_t>(AnswerKey::energy) + 1);

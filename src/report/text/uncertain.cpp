@@ -99,7 +99,7 @@ struct ColumnOfTable {
 };
 
 ColumnOfTable column_of(const Quantity& quantity, const Result& result) {
-  double largest = quantity.measure.si == std::string_view(as_time.si) ? result.outcome.time : 0.0;
+  double largest = quantity.is_instant ? result.outcome.time : 0.0;
   for (const SubImpact& s : result.sub_impacts) {
     largest = std::max(largest, std::abs(quantity.value(s).value_or(0.0)));
   }
