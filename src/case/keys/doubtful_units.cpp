@@ -278,10 +278,10 @@ std::vector<Beyond> beyond_the_model(const Case& input, const Result& result) {
       "beam.theory = \"timoshenko\"",
       thickness);
   add(!is_rigid && is_held && set / beam.height() > largest_deflection, "stretching",
-      "the struck point moves by {} mm, {:.2g} times the thickness, on a beam held at both "
+      "the struck point moves by {} mm, {} times the thickness, on a beam held at both "
       "ends: if its supports cannot approach each other, it stretches, which stiffens it: set "
       "beam.axial = \"held\"",
-      with_significant(mm * set, 3), set / beam.height());
+      with_significant(mm * set, 3), with_significant(set / beam.height(), 2));
   add_pulls(beam, result, found);
   if (!nose) return found;
   add(indentation / *nose > deepest_indentation, "indentation",

@@ -235,6 +235,7 @@ class Reader {
       const bool refused = std::find(refused_.begin(), refused_.end(), key.name) != refused_.end();
       if (!key.required || given_.contains(key.name) || refused) continue;
       if (key.is_needless && key.is_needless(read)) continue;
+      if (given_.contains("beam.material") && is_value_of_material(key.name)) continue;
       const std::string table = key.table();
       const auto present = tables_.find(table);
       if (present != tables_.end()) {

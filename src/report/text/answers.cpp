@@ -121,7 +121,7 @@ auto strongest(const Result& result) {
 std::string time_of_force(const Result& result) {
   const auto hit = strongest(result);
   const double error = std::max(hit->start_error.value_or(0.0), hit->end_error.value_or(0.0));
-  const ReadUnit unit = unit_for(result.outcome.time, as_instant);
+  const ReadUnit unit = unit_for(hit->peak_time, as_instant);
   const auto rounding = rounding_of(hit->certain.value_or(true) ? unit.per_si * error : HUGE_VAL,
                                     decimals_of_times(result, unit));
   const double time = unit.per_si * hit->peak_time;

@@ -138,7 +138,7 @@ TEST(Answers, OnTimesHaveNoPowersOfTenWhateverTheLengthOfTheRun) {
     result.outcome.time += later;
     result.rests_since = rest;
     EXPECT_EQ(answer_to(paper_case(), result, rests_since).text, text);
-    expect_not_in(summary_of(paper_case(), result, true), "e+0");
+    expect_not_in(summary_of(paper_case(), result), "e+0");
   }
 }
 

@@ -40,7 +40,7 @@ TEST(AWorkPrecisionFile, HasAllPointsWithWhatIsWrongOfThem) {
   expect_in(text, "label,method,kind,setting,verdict,",
             "\nelastic section,erk:dop853,rtol,0.0001,right,7,7,7,,,5.0000000000000001e-09,1e-08,",
             ",0.001,wrong count,7,7,7,0.001,1.9999999999999999e-06,", ",1234,",
-            "at 3 us it grows; without bound");
+            "at 3 us it grows, without bound");
 }
 
 TEST(CasesOfDifferentScenes, HaveDifferentIdsButSettingsDoNotMatter) {
