@@ -72,7 +72,8 @@ auto at_end(double Energies::*energy) {
   return [energy](const Finished& run) { return run.result.final_energies.*energy; };
 }
 
-// The largest deflection at rest from the chord; none of a run without shapes, or that turns too far.
+// The largest deflection at rest from the chord; none of a run without shapes, or that turns too
+// far.
 std::optional<double> permanent_set(const Finished& run) {
   double largest = 0.0;
   for (const EnvelopeRow& row : run.result.envelope) {

@@ -222,8 +222,8 @@ class Answers {
     const bool has_fields = result_.used.bends() && !result_.envelope.empty();
     const auto most_set =
         largest([](const EnvelopeRow& row) { return std::abs(row.set_from_supports); });
-    const bool has_set = has_fields && has_yielded && !result_.plastic_zones.empty() &&
-                         why != turns_too_far;
+    const bool has_set =
+        has_fields && has_yielded && !result_.plastic_zones.empty() && why != turns_too_far;
     Answer& set = add(AnswerKey::permanent_set, "m",
                       has_set ? std::optional(std::abs(most_set->set_from_supports)) : std::nullopt,
                       why, RunTotal::permanent_set);

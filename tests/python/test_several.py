@@ -59,6 +59,7 @@ def test_a_sweep_has_maps_histograms_and_all_its_runs(population, tmp_path, prog
     text = well_formed((tmp_path / "out" / "sweep.html").read_text())
     assert 'id="figure-map-n_sub_impacts"' in text and 'id="figure-histograms"' in text
     assert text.partition('id="runs"')[2].count("<tr>") == 10
+    assert "<td>largest force</td>" in text.partition("the base case</h2>")[2].partition("<h2>")[0]
     with open(tmp_path / "out" / "runs.csv") as file:
         forces = [float(row["max_force_N"]) for row in csv.DictReader(file)]
     row = re.search(r"<tr><td>max_force_N</td>(.*?)</tr>", text)[1]

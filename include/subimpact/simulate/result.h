@@ -288,11 +288,12 @@ struct Result : Assessment {
   double max_force = 0.0;              ///< N
   double max_indentation = 0.0;        ///< m
   double largest_rotation = 0.0;       ///< rad, of sections, at separations and at the end
-  /// Whether sections turn so far that the numbers are no results: the model is for small rotations.
+  /// Whether sections turn so far that the numbers are no results: the model is for small
+  /// rotations.
   bool turns_too_far() const { return largest_rotation > 0.5; }
-  double largest_displacement = 0.0;   ///< m, of the struck point, at these and at rows
-  double striker_velocity = 0.0;       ///< m/s, at the end
-  double beam_mean_velocity = 0.0;     ///< m/s, at the end: beam momentum over beam mass
+  double largest_displacement = 0.0;  ///< m, of the struck point, at these and at rows
+  double striker_velocity = 0.0;      ///< m/s, at the end
+  double beam_mean_velocity = 0.0;    ///< m/s, at the end: beam momentum over beam mass
   /// Velocities (m/s), at a time (s), of the striker and, at the struck point, of the rigid body
   /// that has the beam's momentum and moment of momentum: its mean if it is struck at mid-span.
   struct Velocities {

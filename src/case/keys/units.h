@@ -24,7 +24,8 @@ NumberAndUnit split_unit(std::string_view text);
 /// quantity than that of `unit`.
 std::optional<double> value_in(std::string_view unit, std::string_view text);
 
-/// Whether a key has positions along the beam, as fractions of its length or, in a text, as lengths.
+/// Whether a key has positions along the beam, as fractions of its length or, in a text, as
+/// lengths.
 bool is_position(const CaseKey& key);
 
 /// The number that a text with a unit stands for, where the key is a number; else the value itself.

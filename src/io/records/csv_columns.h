@@ -4,8 +4,8 @@
 /// that it holds; heading, writer and documentation follow from the list of columns.
 ///
 /// Numbers have the 17 digits that determine a double, unless their column has fewer. A value that
-/// is absent is an empty cell. A text with a comma or a quote is quoted, its quotes doubled; an end of
-/// a line in it becomes a space, so that each row is one line.
+/// is absent is an empty cell. A text with a comma or a quote is quoted, its quotes doubled; an end
+/// of a line in it becomes a space, so that each row is one line.
 
 #include <algorithm>
 #include <array>

@@ -371,7 +371,6 @@ std::string verdict_words(const Result& result) {
     return fmt::format("{}No contact in {}{}.", before, end,
                        verdict.certainty == StrikeVerdict::Certainty::all ? ", for certain" : "");
   }
-  const Answer& set = find(AnswerKey::permanent_set);
   std::string beam;
   switch (verdict.beam) {
     case Beam::rigid:
@@ -389,7 +388,7 @@ std::string verdict_words(const Result& result) {
       beam = "the beam has yielded; ";
       break;
     case Beam::bent:
-      beam = fmt::format("bent by {}; ", with_total_error(set));
+      beam = fmt::format("bent by {}; ", with_total_error(find(AnswerKey::permanent_set)));
       break;
   }
   static constexpr std::pair<Contact, const char*> states[] = {

@@ -38,8 +38,9 @@ struct Measure {
   double smallest = 1e-3, largest = 1e7;  ///< of the usual unit; beyond them another prefix
 };
 inline constexpr Measure as_ratio{""}, as_force{"N"}, as_impulse{"N s"}, as_energy{"J"},
-    as_velocity{"m/s"}, as_rotation{"rad"}, as_time{"s", -6, 9, 1e-3, 1e4}, as_instant{"s", -6, 9, 1.0, 1e4},
-    as_length{"m", -3, 6, 1e-3, 1e4}, as_gap{"m", -6}, as_stress{"Pa", 6, 3};
+    as_velocity{"m/s"}, as_rotation{"rad"}, as_time{"s", -6, 9, 1e-3, 1e4},
+    as_instant{"s", -6, 9, 1.0, 1e4}, as_length{"m", -3, 6, 1e-3, 1e4}, as_gap{"m", -6},
+    as_stress{"Pa", 6, 3};
 /// Forces from a kilonewton on in kilonewtons.
 inline constexpr Measure as_answered_force{"N", 3, 6, 1.0};
 

@@ -73,11 +73,10 @@ void Audit::check_impulse(double t, double impulse, double force_integral) {
   const double error = (impulse - force_integral) / momentum_scale_;
   max_impulse_error_ = larger(max_impulse_error_, std::abs(error));
   if (!(std::abs(error) <= limits_.energy)) {
-    fail(
-        t, OutcomeKind::inaccurate,
-        "the impulse of the sub-impact that ends at {} differs from its integrated force by "
-        "{:+.2e} of m v0, tolerated are {:.1e}",
-        instant_text(t), error, limits_.energy);
+    fail(t, OutcomeKind::inaccurate,
+         "the impulse of the sub-impact that ends at {} differs from its integrated force by "
+         "{:+.2e} of m v0, tolerated are {:.1e}",
+         instant_text(t), error, limits_.energy);
   }
 }
 

@@ -224,13 +224,13 @@ void EventLoop::check_root(const EventFunction& function, double time, const Sta
     audit_.fail(time, OutcomeKind::inaccurate,
                 "{} was located at {}, but its condition is missed there by {:.2e} {}, "
                 "tolerated are {:.1e}",
-                to_string(function.kind), instant_text(time), at.value, function.of_rate() ? "m/s" : "m",
-                tolerated);
+                to_string(function.kind), instant_text(time), at.value,
+                function.of_rate() ? "m/s" : "m", tolerated);
   }
   if (!(time >= last_event_)) {
     audit_.fail(time, OutcomeKind::inaccurate,
-                "{} was located at {}, before the event that precedes it",
-                to_string(function.kind), instant_text(time));
+                "{} was located at {}, before the event that precedes it", to_string(function.kind),
+                instant_text(time));
   }
   if (function.kind == EventKind::contact_begins) contact_start_ = time;
   if (function.kind == EventKind::contact_ends && !(time > contact_start_)) {

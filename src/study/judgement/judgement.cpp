@@ -157,8 +157,8 @@ ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
   const Outcome& until = other.result.outcome;
   ErrorEstimate::FinerMeshes found{
       until.completed() ? other.of.description
-                        : fmt::format("{}, up to {} where their run stopped,",
-                                      other.of.description, instant_text(until.time)),
+                        : fmt::format("{}, up to {} where their run stopped,", other.of.description,
+                                      instant_text(until.time)),
       there.size(), static_cast<std::size_t>(n_same), std::nullopt, first_mesh_doubt(input, run)};
   if (!here.sub_impacts.empty() && !there.empty() && here.sub_impacts[0].end && there[0].end) {
     const double change = *there[0].end - *here.sub_impacts[0].end;

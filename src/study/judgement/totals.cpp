@@ -157,7 +157,8 @@ const ZoneSummary* counterpart(const ZoneSummary& here, const Result& run, const
   auto there = std::ranges::partition_point(
       zones, [&](const ZoneSummary& zone) { return end_of(zone, other) <= here.start; });
   for (; there != zones.end() && there->start < end; ++there) {
-    const double overlap = std::min(end_of(*there, other), end) - std::max(there->start, here.start);
+    const double overlap =
+        std::min(end_of(*there, other), end) - std::max(there->start, here.start);
     if (!(overlap > most)) continue;
     most = overlap;
     best = &*there;
@@ -233,7 +234,8 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
   }
   std::size_t next = 0;  // sub-impact
   for (const ZoneSummary& zone : summarise_zones(run.sub_impacts)) {
-    const std::size_t first = std::exchange(next, next + static_cast<std::size_t>(zone.n_sub_impacts));
+    const std::size_t first =
+        std::exchange(next, next + static_cast<std::size_t>(zone.n_sub_impacts));
     const auto total = [&](auto value) {
       return total_of(run, beside, usual_safety, [&](const Result& of) -> std::optional<double> {
         if (&of == &run) return value(zone, of);

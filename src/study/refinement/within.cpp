@@ -347,7 +347,7 @@ class Search {
   double work_limit_ = 0.0;
   bool yields_ = false;
   bool may_change_model_ = true;
-  bool has_rows_ = false;  // the last run
+  bool has_rows_ = false;     // the last run
   std::optional<bool> grew_;  // Result::certainty_grew
   ChosenModel model_;
   std::optional<Refinement> refinement_;

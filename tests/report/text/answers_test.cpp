@@ -131,8 +131,8 @@ TEST(Answers, OnRestHaveTheErrorOfItsStart) {
 }
 
 TEST(Answers, OnTimesHaveNoPowersOfTenWhateverTheLengthOfTheRun) {
-  for (const auto& [later, rest, text] : {std::tuple{15.62e-3, 20.62e-3, "20.6200 ms"},
-                                          std::tuple{1.3, 1.305, "1.3050000 s"}}) {
+  for (const auto& [later, rest, text] :
+       {std::tuple{15.62e-3, 20.62e-3, "20.6200 ms"}, std::tuple{1.3, 1.305, "1.3050000 s"}}) {
     Result result = sample_result_with_errors(3);
     result.sub_impacts.back().start += later;
     result.outcome.time += later;
