@@ -17,7 +17,7 @@ int explain(CaseOptions& options) {
 }
 
 const std::vector<std::string> scenes = {"hammer",           "ball-drop", "cantilever", "stop",
-                                         "repeated-strikes", "tube",      "ensemble"};
+                                         "repeated-strikes", "tube",      "rollers",    "ensemble"};
 
 struct NewOptions {
   std::string scene;  // none: all are listed

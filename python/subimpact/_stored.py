@@ -16,7 +16,7 @@ from ._files import Files
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-_WHOLE = {"index", "zone", "subzone", "certain", "section", "strike", "sub_impacts"}
+_WHOLE = {"index", "zone", "subzone", "certain", "section", "spring", "strike", "sub_impacts"}
 _WORDS = {"kind", "doubt"}
 
 

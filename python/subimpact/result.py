@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     Table = npt.NDArray[np.void]
 
 
-TABLES = ("sub_impacts", "transitions", "history", "sections", "points", "shapes", "envelope", "strikes")
+TABLES = ("sub_impacts", "transitions", "supports", "history", "sections", "points", "shapes", "envelope", "strikes")
 
 
 def columns() -> str:
@@ -53,6 +53,7 @@ class Result:
 
     sub_impacts = _table("sub_impacts", "One row per sub-impact: events.csv.")
     transitions = _table("transitions", "One row per located event: transitions.csv.")
+    supports = _table("supports", "One row per contact with a support that the beam can lift off: supports.csv.")
     history = _table("history", "One row per output.interval, and two per event of the contact: history.csv.")
     sections = _table("sections", "The sections of output.sections over time: sections.csv.")
     points = _table("points", "The points of output.points over time: points.csv.")

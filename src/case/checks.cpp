@@ -304,7 +304,8 @@ void check_bodies(const Case& input) {
                 "is true, but only a rigid beam can be a plane or wall; set model.mesh = "
                 "\"rigid\", or hold the ends of a beam that bends with beam.ends"},
                {beam.fixed && beam.foundation > 0.0, "beam.foundation", of_wall},
-               {beam.fixed && beam.is_sprung(), "beam.springs", of_wall}});
+               {beam.fixed && !beam.springs.empty(), "beam.springs", of_wall},
+               {beam.fixed && (beam.rests[0] || beam.rests[1]), "beam.ends", of_wall}});
   const bool rests = input.strikes > 1 && input.at_rest && may_yield(input);
   check_rules({{beam.stretches() && rests, "strike.rest",
                 "is true, the default of repeated strikes, but the shape in which a beam with "

@@ -33,15 +33,23 @@ constexpr SectionDescriptor section_rows[] = {
 
 // Whether each load or spring has an equal one at the mirror image of its point.
 template <class Thing, class Amount>
-bool is_mirrored(const std::vector<Thing>& things, Amount Thing::*amount) {
-  const auto count = [&](double position, const Amount& of) {
+bool is_mirrored(const std::vector<Thing>& things, const Amount& amount) {
+  const auto count = [&](double position, const auto& of) {
     return std::ranges::count_if(things, [&](const Thing& thing) {
-      return thing.position == position && thing.*amount == of;
+      return thing.position == position && amount(thing) == of;
     });
   };
   return std::ranges::all_of(things, [&](const Thing& thing) {
-    return count(thing.position, thing.*amount) == count(1.0 - thing.position, thing.*amount);
+    return count(thing.position, amount(thing)) == count(1.0 - thing.position, amount(thing));
   });
+}
+
+void check_displacements(const Case& input, const BeamMesh& mesh) {
+  const auto at_end = mesh.displacement_at(0.0);
+  if (at_end && at_end->dense.empty()) return;
+  refuse(input.scene.beam.foundation > 0.0 ? "beam.foundation" : "beam.springs",
+         "is given, but this mesh gives no displacements along the beam; leave it out, or give "
+         "the mesh displacement_at()");
 }
 
 // Parts of a quadrature along the beam.
@@ -50,11 +58,6 @@ std::shared_ptr<const BeamMesh> on_springs(const Case& input,
   const auto& refinement = descriptor_of(input.model.mesh).refinement;
   std::size_t n_parts = refinement ? static_cast<std::size_t>(input.model.*refinement->count) : 1;
   if (input.parts.mesh) n_parts = mesh->n_unknowns();
-  if (!mesh->displacement_at(0.0)) {
-    refuse(input.scene.beam.springs.empty() ? "beam.foundation" : "beam.springs",
-           "is given, but this mesh gives no displacements along the beam; leave it out, or give "
-           "the mesh displacement_at()");
-  }
   const bool is_cells = !input.parts.mesh && input.model.mesh == MeshKind::cells;
   return std::make_shared<SprungMesh>(std::move(mesh), input.scene.beam, n_parts, is_cells);
 }
@@ -84,6 +87,11 @@ const char* width_key(const Beam& beam) {
 
 Beam sized_beam(const Case& input) {
   Beam beam = input.scene.beam;
+  for (const int end : {0, 1}) {
+    if (!beam.rests[end]) continue;
+    beam.springs.push_back({static_cast<double>(end), beam.rest_stiffness(), OneSided{}});
+    beam.start = BeamStart::equilibrium;
+  }
   if (!beam.fixed) return beam;
   if (beam.length == 0.0) beam.length = 1.0;
   if (beam.area() == 0.0) beam.width = beam.thickness = 0.05 * beam.length;
@@ -102,8 +110,11 @@ bool is_symmetric(const Case& input) {
   const auto& ends = input.scene.beam.ends;
   const Beam& beam = input.scene.beam;
   return input.scene.striker.position == 0.5 && ends[0] == ends[1] &&
-         beam.angular_velocity == 0.0 && is_mirrored(beam.forces, &PointForce::table) &&
-         is_mirrored(beam.springs, &Spring::stiffness);
+         beam.angular_velocity == 0.0 && beam.rests[0] == beam.rests[1] &&
+         is_mirrored(beam.forces, [](const PointForce& force) { return force.table; }) &&
+         is_mirrored(beam.springs, [](const Spring& spring) {
+           return std::pair(spring.stiffness, spring.one_sided);
+         });
 }
 
 bool uses_symmetry(const Case& input) {
@@ -140,7 +151,9 @@ Problem problem_of(const Case& given) {
   problem.striker = input.scene.striker;
   problem.gravity = input.scene.gravity;
   problem.mesh = input.parts.mesh ? input.parts.mesh : descriptor_of(input.model.mesh).make(input);
-  if (input.scene.beam.is_sprung()) problem.mesh = on_springs(input, std::move(problem.mesh));
+  const Beam& beam = input.scene.beam;
+  if (beam.is_sprung() || beam.may_lift()) check_displacements(input, *problem.mesh);
+  if (beam.is_sprung()) problem.mesh = on_springs(input, std::move(problem.mesh));
   problem.contact_law = contact_law_of(given);
   problem.contact_damping = input.scene.contact_damping();
   if (input.scene.contact.restitution) {

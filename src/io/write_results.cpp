@@ -184,6 +184,7 @@ void ResultWriter::finish(const Case& input, const Result& result, const std::st
   if (!result.envelope.empty()) write_table(run_table<EnvelopeRow>());
   write_table(run_table<SubImpact>());
   write_table(run_table<Transition>());
+  if (input.scene.beam.may_lift()) write_table(run_table<SupportContact>());
   write_file(place / "summary.json", summary_json(input, result));
   if (!report.empty()) write_file(place / "report.json", report);
   if (may_write_case(directory_.path())) write_file(place / case_name, case_file_text(input));

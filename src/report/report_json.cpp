@@ -101,7 +101,20 @@ Json scene_json(const Case& input, const Result& result) {
           {"held", !beam.is_unsupported() || scene.striker.fixed},
           {"stop", scene.striker.fixed},
           {"springs", list_of(beam.springs,
-                              [&](const Spring& s) -> Json { return s.position * beam.length; })},
+                              [&](const Spring& s) -> Json {
+                                const bool is_before =
+                                    s.one_sided && s.one_sided->side == SpringSide::before;
+                                return {{"position", s.position * beam.length},
+                                        {"one_sided", s.one_sided.has_value()},
+                                        {"gap", s.one_sided ? s.one_sided->gap : 0.0},
+                                        {"side", is_before ? -1 : 1}};
+                              })},
+          {"supports", list_of(result.support_contacts,
+                               [&](const SupportContact& c) -> Json {
+                                 return {{"position", c.position},
+                                         {"start", c.start},
+                                         {"end", c.end.value_or(result.outcome.time)}};
+                               })},
           {"bedding", beam.foundation > 0.0},
           {"load", beam.load},
           {"forces",

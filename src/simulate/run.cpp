@@ -227,7 +227,9 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   StruckBeam& beam = parts.beam;
   Result result;
   if (parts.problem.start) begin_next_strike(parts);
-  Audit audit(beam, beam.initial_state(), {used.energy_tolerance, tolerated_momentum});
+  // The impulses of supports that lift are integrals over steps.
+  const double momentum = beam.supports().empty() ? tolerated_momentum : used.energy_tolerance;
+  Audit audit(beam, beam.initial_state(), {used.energy_tolerance, momentum});
   Recorder recorder(beam, output.history_interval(parts.given.end_time), used.events, audit, result,
                     rows);
   if (!output.interval) recorder.follow_force();

@@ -94,8 +94,8 @@ void check_contact_damping(const Problem& problem, const Options& options,
 
 void check_beam_damping(const BeamDamping& damping, const Options& options, bool can_yield);
 
-/// Refuses what integrates natural modes where a beam stretches.
-void check_tension(const Beam& beam, const Options& options);
+/// Refuses what integrates natural modes where a beam stretches or may lift off supports.
+void check_modes(const Beam& beam, const Options& options);
 
 /// Whether an elastic beam without tension on this mesh is integrated in its natural modes, which a
 /// damping ratio needs. Explicit methods see the same motion in both, but a step in modes needs no

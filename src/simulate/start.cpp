@@ -59,6 +59,14 @@ void check_motion(const Beam& beam) {
 void check_equilibrium(const Problem& problem) {
   const Beam& beam = problem.beam;
   if (beam.start != BeamStart::equilibrium) return;
+  double load = problem.gravity * beam.mass() + beam.load * beam.length;
+  for (const PointForce& force : beam.forces) load += force.table.front().second;
+  if ((beam.rests[0] || beam.rests[1]) && !(load > 0.0)) {
+    refuse(
+        "beam.ends",
+        "has an end that \"rests\", but no load presses the beam on it; give scene.gravity above "
+        "0, or a beam.load, or put beam.springs with one_sided = true in its place");
+  }
   if (problem.gravity == 0.0 && !beam.has_loads()) {
     refuse("beam.start",
            "is \"equilibrium\", but no load acts on the beam; give scene.gravity, beam.load or "
@@ -67,8 +75,8 @@ void check_equilibrium(const Problem& problem) {
   if (!beam.fixed && n_held(beam) < 2) {
     refuse("beam.start",
            "is \"equilibrium\", but nothing holds the beam against its loads; allowed with a "
-           "clamped end, two pinned ends, two springs at different points or a bedding; leave it "
-           "out, or add such supports");
+           "clamped end, two pinned ends, two springs or supports that lift (one_sided = true, "
+           "\"rests\") at different points or a bedding; leave it out, or add such supports");
   }
 }
 
@@ -162,6 +170,12 @@ void set_start(const Problem& problem, StruckBeam& beam) {
   State y(2 * (n + 1), 0.0);
   if (problem.beam.start == BeamStart::equilibrium && !problem.beam.fixed) {
     const auto q = beam.equilibrium();
+    if (!q && problem.beam.may_lift()) {
+      refuse("beam.start",
+             "is \"equilibrium\" (which an end that \"rests\" needs), but under its loads the beam "
+             "tips or lifts off the supports that would hold it; allowed: loads that press it on "
+             "two of them at least; move or add supports, or reverse the load");
+    }
     if (!q) {
       refuse("beam.start",
              "is \"equilibrium\", but on this mesh the stiffness of the held beam is not positive "
@@ -187,12 +201,13 @@ void check_next_strike(const Problem& problem) {
       {"beam.forces", !beam.forces.empty()},
       {"beam.velocity", beam.velocity != 0.0},
       {"beam.angular_velocity", beam.angular_velocity != 0.0},
-      {"striker.fixed", problem.striker.fixed}};
+      {"striker.fixed", problem.striker.fixed},
+      {"beam.springs", beam.may_lift()}};
   for (const auto& [key, is_given] : others) {
     if (!is_given) continue;
     refuse(key,
-           "is given, but only a beam without loads, stop and motion of its own is struck again; "
-           "leave it out");
+           "is given, but only a beam without loads, stop, supports that lift and motion of its "
+           "own is struck again; leave it out");
   }
   if (problem.striker.gap > 0.0 && !problem.at_rest) {
     refuse("striker.gap",

@@ -11,8 +11,8 @@ namespace subimpact {
 /// only where the method has them. Throws InvalidCase for an unknown name.
 Case with_method(const Case& input, const std::string& name);
 
-/// `method`, or nystrom or erk where that method cannot take the tension or the damping of the
-/// case.
+/// `method`, or nystrom or erk where that method cannot take the tension, the supports that lift or
+/// the damping of the case.
 Method possible_method(const Case& input, Method method);
 
 /// Whether the steps of central differences on the mesh of a case are not far shorter than those

@@ -55,10 +55,11 @@ Case with_method(const Case& input, const std::string& name) {
 }
 
 Method possible_method(const Case& input, Method method) {
-  const bool takes_tension = descriptor_of(method).modes != MethodDescriptor::Modes::always;
-  if (input.scene.beam.stretches() && !takes_tension) method = Method::nystrom;
+  const bool needs_modes = descriptor_of(method).modes == MethodDescriptor::Modes::always;
+  if (!input.scene.beam.has_natural_modes() && needs_modes) method = Method::nystrom;
   using Damping = MethodDescriptor::Damping;
-  const bool contact = !(input.scene.contact_damping() == 0.0);  // NaN before a flight
+  const bool contact = !(input.scene.contact_damping() == 0.0) ||  // NaN before a flight
+                       input.scene.beam.has_damped_supports();
   const bool beam = !input.scene.beam.damping.is_none();
   const Damping taken = descriptor_of(method).damping;
   const bool of_modes = taken == Damping::of_modes && !contact && !may_yield(input);

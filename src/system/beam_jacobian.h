@@ -6,6 +6,7 @@
 
 #include "ode/second_order_ode.h"
 #include "subimpact/model/mesh/beam_mesh.h"
+#include "system/contact/lifting_support.h"
 
 namespace subimpact {
 
@@ -17,9 +18,11 @@ namespace subimpact {
 /// of a stop with 1 in place of m and without the striker's row of g g^T, so that it stays at rest;
 /// with g = [-S; 1] the gradient of the indentation. The pattern is the beam's band, a row and a
 /// column that couple the striker to the unknowns under it, and the striker's diagonal entry.
+/// Supports that lift add dF_j/dd_j a_j a_j^T within the band.
 class BeamJacobian {
  public:
-  BeamJacobian(const BeamMesh& mesh, double striker_mass);
+  BeamJacobian(const BeamMesh& mesh, double striker_mass,
+               std::span<const LiftingSupport> supports = {});
 
   const SparsityPattern& pattern() const { return pattern_; }
   void mass_entries(std::span<double> values) const;
@@ -28,8 +31,8 @@ class BeamJacobian {
   void stiffness_entries(std::span<const double> tangents, double contact_slope,
                          std::span<double> values, double tension = 0.0,
                          const BandedMatrix* form = nullptr);
-  /// Adds slope g g^T.
-  void add_contact(double slope, std::span<double> values) const;
+  /// Adds slope g g^T, or that of a support (from 1).
+  void add_contact(double slope, std::span<double> values, std::size_t contact = 0) const;
 
  private:
   void copy_band(const BandedMatrix& band, std::span<double> values) const;
@@ -43,7 +46,7 @@ class BeamJacobian {
     std::size_t position;  // in the pattern
     double coefficient;
   };
-  std::vector<ContactEntry> contact_entries_;  // g g^T
+  std::vector<std::vector<ContactEntry>> contact_entries_;  // g g^T, and of each support
 };
 
 }  // namespace subimpact

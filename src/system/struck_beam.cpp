@@ -31,6 +31,23 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       std::pow(mass / (stiffness * std::pow(velocity, exponent - 1.0)), 1.0 / (exponent + 1.0));
   scales_ = {velocity * contact_time, velocity};
   if (!sections_.can_yield()) use_modes();
+  if (parts.on_supports == nullptr) return;
+  supports_ = lifting_supports(*mesh_, *parts.on_supports, scales_.position);
+  double squares = highest_frequency_ * highest_frequency_;
+  for (const LiftingSupport& support : supports_) {
+    depends_on_velocity_ = depends_on_velocity_ || support.contact.is_damped();
+    std::vector<double> response(n_, 0.0);
+    support.approach.add_to(response, 1.0);
+    mass_solver_->solve(response);
+    squares += support.copies * support.stiffness() * support.approach(response);
+  }
+  highest_frequency_ = std::sqrt(squares);
+}
+
+void StruckBeam::settle_on_supports(const State& y) {
+  for (LiftingSupport& support : supports_) {
+    support.contact.follow(support.indentation(beam_positions(y)));
+  }
 }
 
 void StruckBeam::use_modes() {
@@ -127,9 +144,21 @@ void StruckBeam::respond(std::span<const double> unknowns, std::span<const doubl
   bend(unknowns, forces);
   if (!velocities.empty() && damping_.stiffness > 0.0) add_stiffness_damping(velocities, forces);
   mesh_->struck_point().add_to(forces, contact);
+  if (!supports_.empty()) add_support_forces(unknowns, velocities, forces);
   if (!loads_.is_empty()) loads_.add_to(forces, time_);
   mass_solver_->solve(forces);
   for (std::size_t i = 0; i < velocities.size(); ++i) forces[i] -= damping_.mass * velocities[i];
+}
+
+void StruckBeam::add_support_forces(std::span<const double> unknowns,
+                                    std::span<const double> velocities,
+                                    std::span<double> forces) const {
+  for (const LiftingSupport& support : supports_) {
+    if (!support.contact.exerts_force()) continue;
+    const double depth = support.indentation(unknowns);
+    const double rate = velocities.empty() ? 0.0 : support.approach(velocities);
+    support.approach.add_to(forces, -support.copies * support.contact.force(depth, rate));
+  }
 }
 
 void StruckBeam::add_stiffness_damping(std::span<const double> velocities,
@@ -175,6 +204,7 @@ void StruckBeam::force(std::span<const double> y, std::span<double> result) {
   if (!damping_.is_none()) add_damping(beam_velocities(y), forces);
   const double contact = contact_force(y);
   mesh_->struck_point().add_to(forces, contact);
+  if (!supports_.empty()) add_support_forces(y.first(n_), beam_velocities(y), forces);
   if (!loads_.is_empty()) loads_.add_to(forces, time_);
   result[n_] = has_stop() ? 0.0 : striker_mass_ * striker_load() - contact;
 }
@@ -190,9 +220,13 @@ void StruckBeam::stiffness_entries(std::span<const double> y, std::span<double> 
   const double lambda = y[n_] - mesh_->struck_point()(unknowns);
   const double slope =
       contact_.is_damped() ? contact_.slope(lambda, indentation_rate(y)) : contact_.slope(lambda);
-  if (!tension_) return jacobian().stiffness_entries(moments_, slope, values);
   // What a change of the tension adds is of rank one, not banded, and left out.
-  jacobian().stiffness_entries(moments_, slope, values, tension_->at(unknowns), &tension_->form());
+  const double tension = tension_ ? tension_->at(unknowns) : 0.0;
+  jacobian().stiffness_entries(moments_, slope, values, tension,
+                               tension_ ? &tension_->form() : nullptr);
+  for (std::size_t i = 1; i < n_contacts(); ++i) {
+    jacobian().add_contact(contact(i).slope(indentation(y, i), indentation_rate(y, i)), values, i);
+  }
 }
 
 void StruckBeam::damping_entries(std::span<const double> y, std::span<double> values) {
@@ -202,7 +236,9 @@ void StruckBeam::damping_entries(std::span<const double> y, std::span<double> va
     jacobian().stiffness_entries(moments_, 0.0, values);
     for (double& value : values) value *= damping_.stiffness;
   }
-  jacobian().add_contact(contact_.rate_slope(indentation(y)), values);
+  for (std::size_t i = 0; i < n_contacts(); ++i) {
+    jacobian().add_contact(contact(i).rate_slope(indentation(y, i)), values, i);
+  }
   if (damping_.mass == 0.0) return;
   std::vector<double> mass(values.size());
   jacobian().mass_entries(mass);
@@ -218,8 +254,11 @@ double StruckBeam::indentation_rate(std::span<const double> y) const {
   return y.back() - mesh_->struck_point()(beam_velocities(y));
 }
 
-double StruckBeam::displacement_rounding(std::span<const double> y) const {
-  const double size = std::abs(y[n_]) + std::abs(mesh_->struck_point()(beam_positions(y)));
+double StruckBeam::displacement_rounding(std::span<const double> y, std::size_t contact) const {
+  const auto unknowns = beam_positions(y);
+  const double size = contact == 0 ? std::abs(y[n_]) + std::abs(mesh_->struck_point()(unknowns))
+                                   : std::abs(supports_[contact - 1].approach(unknowns)) +
+                                         supports_[contact - 1].gap;
   return 8.0 * std::numeric_limits<double>::epsilon() * size;
 }
 
@@ -229,11 +268,14 @@ void StruckBeam::read_motion(const State& y, SectionMotion& motion) const {
 }
 
 EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
-  const double rate = indentation_rate(y);
-  const EventValue at = contact_.event_function(function, indentation(y), rate);
+  const std::size_t i = function.contact;
+  const double rate = indentation_rate(y, i);
+  const EventValue at = contact(i).event_function(function, indentation(y, i), rate);
   if (!function.of_rate()) return at;
   acceleration_at(y, trial_);
-  const double second = trial_[n_] - mesh_->struck_point()({trial_.data(), n_});
+  const std::span<const double> of_beam(trial_.data(), n_);
+  const double second =
+      i == 0 ? trial_[n_] - mesh_->struck_point()(of_beam) : supports_[i - 1].approach(of_beam);
   return {at.value, function.kind == EventKind::contact_begins ? second : -second};
 }
 
@@ -257,7 +299,7 @@ bool StruckBeam::commit_evaluated(const State& y) {
 }
 
 BeamJacobian& StruckBeam::jacobian() const {
-  if (!jacobian_) jacobian_ = std::make_unique<BeamJacobian>(*mesh_, striker_mass_);
+  if (!jacobian_) jacobian_ = std::make_unique<BeamJacobian>(*mesh_, striker_mass_, supports_);
   return *jacobian_;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "subimpact/model/scene.h"
 #include "system/beam_jacobian.h"
 #include "system/contact/contact_state.h"
+#include "system/contact/lifting_support.h"
 #include "system/loads.h"
 
 namespace subimpact {
@@ -32,6 +34,7 @@ struct StruckBeamParts {
   double velocity_scale = 0.0;          ///< m/s, of the strike; 0: striker_velocity
   std::optional<Tension> tension = {};  ///< of a beam whose ends are held along it; not in modes
   double restitution_velocity = 0.0;    ///< m/s, as of a Problem
+  const Beam* on_supports = nullptr;    ///< that has supports that lift; null: none
 };
 
 /// Quantities integrated over time since the run began: energy (J) that velocity-dependent forces
@@ -65,11 +68,13 @@ struct EndState {
 ///
 /// State y = [w_1..w_n, w_m, v_1..v_n, v_m] (m, m/s): the mesh's unknowns, then the striker.
 ///
-///     Mass w'' = -B^T W M(kappa, history) - K_s w - N G w + S F + f(t),   m w_m'' = -F + m g,
+///     Mass w'' = -B^T W M(kappa, history) - K_s w - N G w + S F - sum_j a_j F_j + f(t),
+///     m w_m'' = -F + m g,
 ///     F = F(lambda, history),   kappa = B w,   lambda = w_m - S.w,
 ///
 /// with M (N m; sign convention of kappa), K_s the stiffness of shear and springs, if any, the
-/// tension N of a beam that is held along it (Tension), and the loads f (Loads). In place of a
+/// tension N of a beam that is held along it (Tension), the forces F_j of supports that lift
+/// (LiftingSupport; not in modes), and the loads f (Loads). In place of a
 /// striker of infinite mass there is a stop: w_m'' = 0. With damping the forces depend on
 /// velocities too (docs/theory.md, "Beam"). Other classes treat changes of branch within a step:
 /// ContactState and find_crossing for the contact, SectionCorrector for the sections. Accounts
@@ -98,6 +103,23 @@ class StruckBeam final : public MechanicalSystem {
   std::size_t n_yielded_sections() const { return sections_.n_yielded(); }
   const ContactState& contact() const { return contact_; }
   ContactState& contact() { return contact_; }
+  std::span<const LiftingSupport> supports() const { return supports_; }
+  /// The contacts of the beam: that of the striker (0) and those of its supports that lift.
+  std::size_t n_contacts() const { return 1 + supports_.size(); }
+  const ContactState& contact(std::size_t i) const {
+    return i == 0 ? contact_ : supports_[i - 1].contact;
+  }
+  ContactState& contact(std::size_t i) { return i == 0 ? contact_ : supports_[i - 1].contact; }
+  /// F_j of each copy of support j (from 0) at y, N.
+  double support_force(std::size_t j, std::span<const double> y) const {
+    return supports_[j].contact.force(indentation(y, j + 1), indentation_rate(y, j + 1));
+  }
+  /// Puts the supports on the branch on which they lie at y.
+  void settle_on_supports(const State& y);
+  /// Impulses (N s) since the last call, one per support.
+  void add_support_impulses(std::span<const double> impulses, double sign = 1.0) {
+    for (std::size_t i = 0; i < supports_.size(); ++i) supports_[i].impulse += sign * impulses[i];
+  }
   const MassSolver& mass_solver() const { return *mass_solver_; }
   double striker_mass() const { return striker_mass_; }  ///< kg; infinite: a stop
   bool has_stop() const { return std::isinf(striker_mass_); }
@@ -105,7 +127,7 @@ class StruckBeam final : public MechanicalSystem {
   /// Acceleration of the striker without the contact force, m/s2.
   double striker_load() const { return has_stop() ? 0.0 : loads_.gravity(); }
   /// Whether anything has to be integrated over time (Losses).
-  bool has_losses() const { return depends_on_velocity_ || loads_.varies(); }
+  bool has_losses() const { return depends_on_velocity_ || loads_.varies() || !supports_.empty(); }
   /// Potential energy (J) of the loads in the state y at time t.
   double load_potential(const State& y, double t) const;
   /// The work of loads since the start, J.
@@ -117,7 +139,7 @@ class StruckBeam final : public MechanicalSystem {
   /// Null where ends may approach each other.
   const Tension* tension() const { return tension_ ? &*tension_ : nullptr; }
   double outer_stiffness() const { return outer_stiffness_; }  ///< E h/2, N/m
-  /// Highest frequency (rad/s) of the beam without contact.
+  /// Highest frequency (rad/s) of the beam on its supports without contact: a bound.
   double highest_frequency() const { return highest_frequency_; }
   /// Stiffness of each mode of an elastic beam in natural modes; else empty.
   std::span<const double> modal_stiffness() const { return modal_stiffness_; }
@@ -152,6 +174,12 @@ class StruckBeam final : public MechanicalSystem {
   }
   double indentation(std::span<const double> y) const;       ///< lambda, m
   double indentation_rate(std::span<const double> y) const;  ///< m/s
+  double indentation(std::span<const double> y, std::size_t contact) const {
+    return contact == 0 ? indentation(y) : supports_[contact - 1].indentation(beam_positions(y));
+  }
+  double indentation_rate(std::span<const double> y, std::size_t contact) const {
+    return contact == 0 ? indentation_rate(y) : supports_[contact - 1].approach(beam_velocities(y));
+  }
   double contact_force(std::span<const double> y) const {
     return contact_.is_damped() ? contact_.force(indentation(y), indentation_rate(y))
                                 : contact_.force(indentation(y));
@@ -164,7 +192,13 @@ class StruckBeam final : public MechanicalSystem {
   void set_losses(const Losses& losses) { losses_ = losses; }
   void add_losses(const Losses& more) { losses_ = losses_ + more; }
   /// Rounding of the indentation at y, m.
-  double displacement_rounding(std::span<const double> y) const;
+  double displacement_rounding(std::span<const double> y, std::size_t contact = 0) const;
+  /// m: what a contact must pass zero by to begin or end; 0 of the striker's.
+  double dead_length(std::span<const double> y, std::size_t contact) const {
+    return contact == 0
+               ? 0.0
+               : std::max(supports_[contact - 1].dead_length, displacement_rounding(y, contact));
+  }
   void read_motion(const State& y, SectionMotion& motion) const;
 
   /// Value and rate of an event function at y; for contact_unloads at the cost of an acceleration.
@@ -205,13 +239,19 @@ class StruckBeam final : public MechanicalSystem {
                std::span<double> result);
   void use_modes();
   void come_to_rest(std::span<double> w, double first_frequency);
-  // With a given tension.
+  // With a given tension; and where the beam lies on these supports.
   std::optional<std::vector<double>> equilibrium(double tension) const;
+  std::optional<std::vector<double>> equilibrium(double tension,
+                                                 const std::vector<bool>& lies_on) const;
+  // Adds the forces of supports that lift; `velocities`: empty without damping.
+  void add_support_forces(std::span<const double> unknowns, std::span<const double> velocities,
+                          std::span<double> forces) const;
   BeamJacobian& jacobian() const;
 
   std::shared_ptr<const BeamMesh> mesh_;
   SectionField sections_;
   ContactState contact_;
+  std::vector<LiftingSupport> supports_;
   std::unique_ptr<MassSolver> mass_solver_;
   std::size_t n_;
   double striker_mass_;

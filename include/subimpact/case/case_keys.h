@@ -19,7 +19,8 @@
 namespace subimpact {
 
 /// Loads, springs or gauges at points, each with a position and, under the name `quantity`, a
-/// number, a table of pairs (t, F) or a word: [{ position = 0.5, stiffness = 100 }].
+/// number, a table of pairs (t, F) or a word: [{ position = 0.5, stiffness = 100 }]; of springs
+/// perhaps what makes them push only.
 struct PlacedValues {
   std::string quantity;  ///< "stiffness", "force", "face"
   struct Entry {
@@ -27,6 +28,7 @@ struct PlacedValues {
     std::vector<std::pair<double, double>> table;  ///< a plain number is one pair (0, number)
     std::string word = {};                         ///< in place of a table
     bool in_metres = false;
+    std::optional<OneSided> one_sided = {};
     bool operator==(const Entry&) const = default;
   };
   std::vector<Entry> entries;

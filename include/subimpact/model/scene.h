@@ -49,10 +49,27 @@ struct PointForce {
   std::vector<std::pair<double, double>> table = {};
 };
 
+enum class SpringSide {
+  behind,  ///< pushes against the strike
+  before   ///< pushes along it
+};
+
+/// What makes a spring push only: F = k d (1 + chi d') where the beam's displacement towards it
+/// exceeds the gap by d > 0, never below 0, else nothing; without memory. Source of the damping: as
+/// that of the contact (Contact::damping).
+struct OneSided {
+  double gap = 0.0;  ///< m, at zero displacement
+  SpringSide side = SpringSide::behind;
+  double damping = 0.0;  ///< chi, s/m
+  bool operator==(const OneSided&) const = default;
+};
+
 /// A linear spring between one point of the beam and the ground.
 struct Spring {
   double position = 0.0;   ///< as a fraction of the length
-  double stiffness = 0.0;  ///< N/m
+  double stiffness = 0.0;  ///< k, N/m
+  std::optional<OneSided> one_sided =
+      {};  ///< a support that the beam lifts off; none: it pulls, too
 };
 
 /// The shape from which a beam starts.
@@ -101,6 +118,8 @@ struct Beam {
   /// k; by default Cowper's for the shape of the section.
   std::optional<double> shear_coefficient = {};
   std::array<EndSupport, 2> ends{EndSupport::free, EndSupport::free};  ///< at x = 0 and x = l
+  /// Whether that free end lies on a support that only pushes, of rest_stiffness().
+  std::array<bool, 2> rests{};
   AxialEnds axial = AxialEnds::free;  ///< held: needs supports at both ends
   BeamDamping damping = {};
   CrossSection section = {};
@@ -126,7 +145,25 @@ struct Beam {
   }
   bool moves_at_start() const { return velocity != 0.0 || angular_velocity != 0.0; }
   bool has_loads() const { return load != 0.0 || !forces.empty(); }
-  bool is_sprung() const { return foundation > 0.0 || !springs.empty(); }
+  bool is_sprung() const {
+    return foundation > 0.0 ||
+           std::ranges::any_of(springs, [](const Spring& spring) { return !spring.one_sided; });
+  }
+  /// Whether it lies on, or may meet, supports that only push.
+  bool may_lift() const {
+    return rests[0] || rests[1] ||
+           std::ranges::any_of(springs, [](const Spring& spring) { return !!spring.one_sided; });
+  }
+  bool has_damped_supports() const {
+    return std::ranges::any_of(springs, [](const Spring& spring) {
+      return spring.one_sided && spring.one_sided->damping > 0.0;
+    });
+  }
+  /// Whether it has natural modes: neither a tension nor supports that come and go.
+  bool has_natural_modes() const { return !stretches() && !may_lift(); }
+  /// N/m, of a support on which an end rests: E A/(4 h), the order of rollers of the beam's own
+  /// material, which the depth of their dents and their seats leave open by a factor of ten.
+  double rest_stiffness() const { return 0.25 * youngs_modulus * area() / height(); }
   /// Velocity (m/s) at t = 0 of a point (a fraction of the length).
   double velocity_at(double position) const {
     return velocity + angular_velocity * length * (position - used_pivot());
@@ -154,7 +191,7 @@ struct Beam {
   /// Whether both ends are free.
   bool is_free() const { return ends[0] == EndSupport::free && ends[1] == EndSupport::free; }
   /// Whether only striker and loads act on the beam.
-  bool is_unsupported() const { return is_free() && !fixed && !is_sprung(); }
+  bool is_unsupported() const { return is_free() && !fixed && !is_sprung() && !may_lift(); }
   /// J = rho I (kg m), or zero in Euler-Bernoulli theory.
   double rotary_inertia() const {
     return theory == BeamTheory::euler_bernoulli ? 0.0 : density * second_moment();

@@ -167,6 +167,7 @@ enum class BodyPart {
   width,    ///< a hinge held sideways
   finite_rotations,
   stretching,  ///< of a beam held at both ends
+  support,     ///< stiffness of that on which an end rests
   hinge_length,
   thin_openings
 };

@@ -2,6 +2,7 @@
 
 /// Sub-impacts, assembled from events, their zones, near misses, and force signals.
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,19 @@ struct SubImpact : SubImpactAssessment {
   std::optional<double> inner_opening;
   int zone = 0;     ///< numbered from 1
   int subzone = 0;  ///< numbered from 1 within the zone
+};
+
+/// One contact of the beam with a support that it can lift off (Spring::one_sided), the mirror
+/// image of one included where one half of the beam is modelled. Contacts whose force stays below
+/// 1e-9 of the largest of the run are left out, with their transitions.
+struct SupportContact {
+  std::size_t spring = 0;     ///< index of the support in Beam::springs, or of an end that rests
+  double position = 0.0;      ///< m, along the beam
+  double start = 0.0;         ///< s: it touches; 0: it lay there from the start
+  std::optional<double> end;  ///< s: it lifts; none: it lies there when the simulation ended
+  double peak_force = 0.0;    ///< N
+  double impulse = 0.0;       ///< N s
+  std::optional<double> start_error = {}, end_error = {};  ///< s; none: not known
 };
 
 /// Smallest gap between the bodies before it grows for good, or until the run ends.

@@ -33,7 +33,7 @@ struct HistoryRow {
   double back_stress;           ///< Pa, positive in tension
   double striker_energy;        ///< U_m
   double beam_kinetic_energy;   ///< U_k
-  double bending_elastic;       ///< U_e
+  double bending_elastic;       ///< U_e, with that of supports
   double bending_plastic;       ///< U_p
   double contact_elastic;       ///< U_c
   double contact_plastic;       ///< D_c
@@ -256,6 +256,7 @@ struct Result : Assessment {
   ResolvedSettings used;  ///< the same after resolve()
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
+  std::vector<SupportContact> support_contacts;  ///< in order of start, then of position
   /// In order of time: for every contact and separation the nearest few whose margin is below half
   /// of the largest distance there; for a free flight that the exponential method passes in one
   /// step, the nearest.

@@ -86,7 +86,7 @@ def _data(files: Files, summary: Mapping[str, Any], report: Mapping[str, Any], h
     scene, counts, end = report["scene"], summary["counts"], summary["outcome"]["time_s"]
     scene["time_unit"]["name"] = scene["time_unit"]["name"].replace("us", "µs")
     events = [{"time": float(event["time_s"]), "kind": event["kind"]} for event in files.table("transitions.csv")
-              if event["kind"] != "section_reverses"]
+              if event["kind"].startswith("contact")]
     history, n_rows = numbers.history(files, counts["history_rows"])
     history_note = shapes_note = ""
     if n_rows < counts["history_rows"]:

@@ -10,99 +10,13 @@
 #include <utility>
 
 #include "case/keys/case_choices.h"
+#include "case/keys/key_members.h"
 #include "case/keys/materials.h"
 #include "case/shifted_case.h"
 #include "subimpact/simulate/options.h"
 
 namespace subimpact {
 namespace {
-
-template <class T>
-struct Member {  // an enumeration
-  static constexpr KeyType type = KeyType::choice;
-  using Choices = T;
-  static KeyValue to_value(T x) { return std::string(name_of(x)); }
-  static T from_value(const KeyValue& v) { return value_of<T>(std::get<std::string>(v)); }
-};
-template <class T, KeyType key_type>
-struct HeldMember {
-  static constexpr KeyType type = key_type;
-  static KeyValue to_value(const T& x) { return x; }
-  static T from_value(const KeyValue& v) { return std::get<T>(v); }
-};
-template <>
-struct Member<bool> : HeldMember<bool, KeyType::flag> {};
-template <>
-struct Member<std::string> : HeldMember<std::string, KeyType::text> {};
-template <>
-struct Member<double> : HeldMember<double, KeyType::number> {
-  static double from_value(const KeyValue& v) {
-    if (const auto* whole = std::get_if<std::int64_t>(&v)) return static_cast<double>(*whole);
-    return std::get<double>(v);
-  }
-};
-template <>
-struct Member<int> {
-  static constexpr KeyType type = KeyType::count;
-  static KeyValue to_value(int x) { return std::int64_t{x}; }
-  static int from_value(const KeyValue& v) { return static_cast<int>(std::get<std::int64_t>(v)); }
-};
-template <>
-struct Member<std::vector<double>> : HeldMember<std::vector<double>, KeyType::numbers> {
-  static std::vector<double> from_value(const KeyValue& v) {
-    // An empty list in a case file has no element type.
-    const auto* numbers = std::get_if<std::vector<double>>(&v);
-    return numbers != nullptr ? *numbers : std::vector<double>{};
-  }
-};
-template <class T>
-struct Member<std::array<T, 2>> {
-  static constexpr KeyType type = KeyType::pair;
-  using Choices = T;
-  static KeyValue to_value(const std::array<T, 2>& x) {
-    return std::vector<std::string>{name_of(x[0]), name_of(x[1])};
-  }
-  static std::array<T, 2> from_value(const KeyValue& v) {
-    const auto& names = std::get<std::vector<std::string>>(v);
-    return {value_of<T>(names[0]), value_of<T>(names[1])};
-  }
-};
-
-// Things at points, each as an entry of a list and back.
-using Entry = PlacedValues::Entry;
-Entry entry_of(const Spring& x) { return {x.position, {{0.0, x.stiffness}}}; }
-Entry entry_of(const PointForce& x) { return {x.position, x.table}; }
-Entry entry_of(const Gauge& x) { return {x.position, {}, name_of(x.face)}; }
-void read(const Entry& entry, Spring& x) { x = {entry.position, entry.table.front().second}; }
-void read(const Entry& entry, PointForce& x) { x = {entry.position, entry.table}; }
-void read(const Entry& entry, Gauge& x) { x = {entry.position, value_of<Face>(entry.word)}; }
-
-const char* quantity_of(const Spring&) { return "stiffness"; }
-const char* quantity_of(const PointForce&) { return "force"; }
-const char* quantity_of(const Gauge&) { return "face"; }
-
-template <class T>
-struct PlacedMember {
-  static constexpr KeyType type = KeyType::placed;
-  static KeyValue to_value(const std::vector<T>& x) {
-    PlacedValues value{quantity_of(T{}), {}};
-    for (const T& one : x) value.entries.push_back(entry_of(one));
-    return value;
-  }
-  static std::vector<T> from_value(const KeyValue& v) {
-    std::vector<T> things;
-    for (const Entry& entry : std::get<PlacedValues>(v).entries) read(entry, things.emplace_back());
-    return things;
-  }
-};
-template <>
-struct Member<std::vector<Spring>> : PlacedMember<Spring> {};
-template <>
-struct Member<std::vector<PointForce>> : PlacedMember<PointForce> {};
-template <>
-struct Member<std::vector<Gauge>> : PlacedMember<Gauge> {
-  using Choices = Face;
-};
 
 template <class T>
 const T* held(const T& member) {
@@ -203,6 +117,29 @@ CaseKey or_word(CaseKey key, Choice word, bool Contact::*is_word) {
     if (!(to.scene.contact.*is_word)) set(to, value);
   };
   key.choices = {std::move(word)};
+  return key;
+}
+
+// beam.ends, of which "rests" is a free end on a support that only pushes.
+CaseKey or_rests(CaseKey key) {
+  const std::string rests = "rests";
+  key.get = [get = key.get, rests](const Case& from) {
+    auto names = std::get<std::vector<std::string>>(*get(from));
+    for (const std::size_t end : {0, 1}) {
+      if (from.scene.beam.rests[end]) names[end] = rests;
+    }
+    return std::optional<KeyValue>(names);
+  };
+  key.set = [set = key.set, rests](Case& to, const KeyValue& value) {
+    auto names = std::get<std::vector<std::string>>(value);
+    for (const std::size_t end : {0, 1}) {
+      to.scene.beam.rests[end] = names[end] == rests;
+      if (names[end] == rests) names[end] = name_of(EndSupport::free);
+    }
+    set(to, names);
+  };
+  key.choices.push_back(
+      {rests, "lies on a support that it can lift off, pressed by gravity or load"});
   return key;
 }
 
@@ -316,13 +253,13 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.theory", "", any_value, "beam theory", by_scene, AT(scene.beam.theory)),
     row("beam.poisson", "", poisson, "Poisson's ratio, for theory = \"timoshenko\" and for contact.law = \"sphere\", \"line\", or \"hertz\" without stiffness", "0.3 where theory or contact law need it", AT(scene.beam.poisson)),
     row("beam.shear_coefficient", "", positive_share, "shear coefficient k of theory = \"timoshenko\": k G A is the shear stiffness", "Cowper's for the section; of a rectangle 10 (1 + nu)/(12 + 11 nu)", AT(scene.beam.shear_coefficient)),
-    row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
+    or_rests(row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends))),
     row("beam.axial", "", any_value, "what supports at both ends do along the beam", as_in_case, AT(scene.beam.axial)),
     row("beam.load", "N/m", finite, "uniform load along the strike, constant from t = 0", as_in_case, AT(scene.beam.load)),
     row("beam.forces", "N", finite, "forces at points along the strike, each constant or linear between the points (t, F) of a table", "[]", AT(scene.beam.forces)),
-    row("beam.springs", "N/m", positive, "linear springs between points and the ground", "[]", AT(scene.beam.springs)),
+    row("beam.springs", "N/m", positive, "linear springs between points and the ground; with one_sided = true one that only pushes: a support, stop or bumper behind (or side = \"before\") the beam, at a gap (m), with a damping (s/m) as of contact.damping", "[]", AT(scene.beam.springs)),
     row("beam.foundation", "N/m2", not_negative, "elastic bedding: force per length over displacement", as_in_case, AT(scene.beam.foundation)),
-    row("beam.start", "", any_value, "shape from which the beam starts", as_in_case, AT(scene.beam.start)),
+    row("beam.start", "", any_value, "shape from which the beam starts; a beam whose end rests: equilibrium", as_in_case, AT(scene.beam.start)),
     row("beam.velocity", "m/s", finite, "velocity along the strike at t = 0, of the pivot where the beam turns", as_in_case, AT(scene.beam.velocity)),
     row("beam.angular_velocity", "rad/s", finite, "angular velocity at t = 0, positive where it turns points beyond the pivot along the strike", as_in_case, AT(scene.beam.angular_velocity)),
     row("beam.pivot", "", fraction, "point about which the beam turns, as a fraction of the length", "the pinned end; of other beams 0.5", AT(scene.beam.pivot)),

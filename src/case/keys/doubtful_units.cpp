@@ -223,7 +223,8 @@ void add_pulls(const Beam& beam, const Result& result, std::vector<Beyond>& foun
   found.push_back(
       {"support_pulls",
        fmt::format("a support pulls the beam by up to {} N, at x = {} at {}: a beam that "
-                   "only rests on it would lift off there, which the model leaves out",
+                   "only rests on it would lift off there: use beam.ends = [\"rests\", \"rests\"] "
+                   "with scene.gravity, or beam.springs with one_sided = true",
                    with_significant(pull.value, 3), *pulls == 0 ? "0" : "length",
                    instant_text(pull.time, 4))});
 }

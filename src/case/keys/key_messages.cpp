@@ -63,7 +63,13 @@ std::optional<std::string> pair_problem(const CaseKey& key, const std::vector<st
 // The refusal of the first entry in a list of loads, springs or gauges that is not allowed.
 std::optional<std::string> placed_problem(const CaseKey& key, const PlacedValues& value) {
   const auto refuse = [&](const std::string& what) { return refusal(key, "a list with " + what); };
-  for (const auto& [position, table, word, in_metres] : value.entries) {
+  for (const auto& [position, table, word, in_metres, one_sided] : value.entries) {
+    if (one_sided && !(one_sided->gap >= 0.0 && std::isfinite(one_sided->gap))) {
+      return refuse(fmt::format("gap {}", one_sided->gap));
+    }
+    if (one_sided && !(one_sided->damping >= 0.0 && std::isfinite(one_sided->damping))) {
+      return refuse(fmt::format("damping {}", one_sided->damping));
+    }
     if (!(position >= 0.0 && (in_metres || position <= 1.0))) {
       return refuse(fmt::format("position {}", position));
     }
@@ -153,13 +159,18 @@ std::string to_text(const KeyValue& value) {
     }
     std::string operator()(const PlacedValues& x) const {
       std::vector<std::string> entries;
-      for (const auto& [position, table, word, in_metres] : x.entries) {
+      for (const auto& [position, table, word, in_metres, one_sided] : x.entries) {
         std::string amount = x.quantity + " = ";
         amount += table.empty() ? in_quotes(word) : fmt::format("{}", table.front().second);
         if (table.size() > 1) {
           std::vector<std::string> pairs;
           for (const auto& [t, f] : table) pairs.push_back(fmt::format("[{}, {}]", t, f));
           amount = fmt::format("table = [{}]", fmt::join(pairs, ", "));
+        }
+        if (one_sided) {
+          amount += fmt::format(", one_sided = true, gap = {}", one_sided->gap);
+          if (one_sided->side == SpringSide::before) amount += R"(, side = "before")";
+          if (one_sided->damping > 0.0) amount += fmt::format(", damping = {}", one_sided->damping);
         }
         entries.push_back(fmt::format("{{ position = {}, {} }}", position, amount));
       }
@@ -198,7 +209,9 @@ std::string allowed_values(const CaseKey& key) {
         return list + "force = F } or { position = x, table = [[t, F], ...]" + x +
                "F in N, t in s, 0 or above and not descending";
       }
-      return list + "stiffness = k" + x + "k " + key.range + unit;
+      return list + "stiffness = k" + x + "k " + key.range + unit +
+             ", perhaps with one_sided = true, gap = \"0 mm\" or more, side = \"behind\" or "
+             "\"before\", damping = 0 s/m or more";
     }
   }
   return {};

@@ -77,6 +77,11 @@ constexpr IdleKey idle_keys[] = {
     {"beam.load", "beam.fixed", is_fixed},
     {"beam.forces", "beam.fixed", is_fixed},
     {"beam.start", "beam.fixed", is_fixed},
+    {"beam.start", "beam.ends",
+     [](const Case& c) {
+       const Beam& beam = c.scene.beam;
+       return (beam.rests[0] || beam.rests[1]) && beam.start == BeamStart::straight;
+     }},
     {"beam.damping.ratio", "model.mesh", is_rigid},
     {"beam.damping.stiffness", "model.mesh", is_rigid},
     {"model.hinges", "model.section", has_elastic_sections},

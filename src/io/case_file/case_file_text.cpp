@@ -88,6 +88,15 @@ Json placed_schema(const CaseKey& key) {
     const Json pair = {{"type", "array"}, {"items", any}, {"minItems", 2}, {"maxItems", 2}};
     items["properties"]["table"] = {{"type", "array"}, {"items", pair}, {"minItems", 2}};
   }
+  if (key.leaf() == "springs") {
+    CaseKey gap = position, damping;
+    gap.limits = damping.limits = {.minimum = 0.0};
+    items["properties"].update({{"one_sided", {{"type", "boolean"}}},
+                                {"gap", number_or_unit_schema(gap)},
+                                {"side", {{"enum", {"behind", "before"}}}},
+                                {"damping", number_schema("number", damping.limits)}});
+    items["maxProperties"] = 6;
+  }
   return {{"type", "array"}, {"items", items}};
 }
 

@@ -28,7 +28,7 @@ static std::span<const Named<WhyNot>> names_of(WhyNot) {
 std::span<const Named<BodyPart>> names_of(BodyPart) {
   static const auto names = in_order<BodyPart>(
       {"shear", "shear_coefficient", "poisson", "bending", "contact_law", "nose", "gravity", "width", "finite_rotations",
-       "stretching", "hinge_length", "thin_openings"});
+       "stretching", "support", "hinge_length", "thin_openings"});
   return names;
 }
 static std::span<const Named<StrikeVerdict::Certainty>> names_of(StrikeVerdict::Certainty) {

@@ -12,7 +12,7 @@ constexpr int deepest_json = 16;
 
 Json json_of(const PlacedValues& placed) {
   Json list = Json::array();
-  for (const auto& [position, table, word, in_metres] : placed.entries) {
+  for (const auto& [position, table, word, in_metres, one_sided] : placed.entries) {
     list.push_back({{"position", position}});
     if (in_metres) list.back()["position"] = fmt::format("{} m", position);
     if (table.size() > 1) {
@@ -20,6 +20,11 @@ Json json_of(const PlacedValues& placed) {
     } else {
       list.back()[placed.quantity] = table.empty() ? Json(word) : Json(table.front().second);
     }
+    if (!one_sided) continue;
+    list.back().update({{"one_sided", true},
+                        {"gap", one_sided->gap},
+                        {"side", one_sided->side == SpringSide::before ? "before" : "behind"},
+                        {"damping", one_sided->damping}});
   }
   return list;
 }
@@ -28,6 +33,24 @@ Json json_of(const PlacedValues& placed) {
 std::optional<double> number_in(const Json& json, const std::string& unit) {
   if (json.is_string()) return value_in(unit, json.get<std::string>());
   return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
+}
+
+// Takes what makes a spring push only out of its object; false where it is not as it should be.
+bool take_one_sided(Json& item, std::optional<OneSided>& one_sided) {
+  const auto take = [&](const char* name, Json otherwise) {
+    const Json value = item.value(name, std::move(otherwise));
+    return item.erase(name) > 0 ? std::pair(true, value) : std::pair(false, value);
+  };
+  const auto [is_given, pushes_only] = take("one_sided", false);
+  const auto [has_gap, gap] = take("gap", 0.0);
+  const auto [has_side, side] = take("side", "behind");
+  const auto [has_damping, damping] = take("damping", 0.0);
+  if (!pushes_only.is_boolean()) return false;
+  if (!pushes_only.get<bool>()) return !has_gap && !has_side && !has_damping;
+  const auto length = number_in(gap, "m"), chi = number_in(damping, "s/m");
+  if (!length || !chi || (side != "behind" && side != "before")) return false;
+  one_sided = {*length, side == "before" ? SpringSide::before : SpringSide::behind, *chi};
+  return true;
 }
 
 // A list of things at points, each a position and one other number, of forces perhaps a table, or
@@ -40,6 +63,7 @@ std::optional<KeyValue> placed_in(const Json& list, const CaseKey& key) {
     entry.in_metres = item.at("position").is_string();
     const auto position = number_in(item.at("position"), entry.in_metres ? "m" : "");
     if (!key.choices.empty()) item.emplace("face", "back");
+    if (key.leaf() == "springs" && !take_one_sided(item, entry.one_sided)) return std::nullopt;
     const bool is_table = key.leaf() == "forces" && item.contains("table");
     const char* what = is_table ? "table" : key.quantity();
     if (!position || item.size() != 2 || !item.contains(what)) return std::nullopt;

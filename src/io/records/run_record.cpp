@@ -179,8 +179,8 @@ int count_subzones(const DescribedRun& run) {
 Json count_transitions(const DescribedRun& run) {
   Json json;
   using enum EventKind;
-  for (const EventKind kind :
-       {contact_begins, contact_yields, contact_unloads, contact_ends, section_reverses}) {
+  for (const EventKind kind : {contact_begins, contact_yields, contact_unloads, contact_ends,
+                               section_reverses, support_touches, support_lifts}) {
     json[std::string(to_string(kind))] =
         std::ranges::count(run.result->transitions, kind, &Transition::kind);
   }

@@ -8,7 +8,9 @@
 namespace subimpact {
 namespace {
 
-std::size_t number_from_1(const SubImpact&, std::size_t index) { return index + 1; }
+std::optional<std::size_t> number_from_1(const std::optional<std::size_t>& index) {
+  return index ? std::optional(*index + 1) : std::nullopt;
+}
 
 std::optional<double> duration(const SubImpact& s) {
   return s.end ? std::optional(*s.end - s.start) : std::nullopt;
@@ -73,7 +75,7 @@ template <>
 const RunTable<SubImpact>& run_table() {
   static const RunTable<SubImpact> table = {
       "events.csv", "one row per sub-impact",
-      {{"index", "number of the sub-impact, from 1", number_from_1},
+      {{"index", "number of the sub-impact, from 1", [](const SubImpact&, std::size_t index) { return index + 1; }},
        {"zone", "number of its zone, from 1", &SubImpact::zone},
        {"subzone", "number of its sub-zone within the zone, from 1", &SubImpact::subzone},
        {"start_s", "instant at which contact begins", &SubImpact::start},
@@ -114,10 +116,27 @@ const RunTable<Transition>& run_table() {
   static const RunTable<Transition> table = {
       "transitions.csv", "one row per located event",
       {{"time_s", "instant of the event", &Transition::time},
-       {"kind", "contact_begins, contact_yields, contact_unloads, contact_ends, or section_reverses (not by central-difference)", &Transition::kind},
-       {"section", "index of the section, from 0; empty for events of the contact", &Transition::section},
-       {"value", "indentation (m), or curvature of the section (1/m)", &Transition::value}},
+       {"kind", "contact_begins, contact_yields, contact_unloads, contact_ends, support_touches, support_lifts, or section_reverses (not by central-difference)", &Transition::kind},
+       {"section", "index of the section, from 0; empty for events of contact and supports", &Transition::section},
+       {"value", "indentation (m), or curvature of the section (1/m)", &Transition::value},
+       {"spring", "number of the support, as in supports.csv; empty for other events", [](const Transition& event) { return number_from_1(event.spring); }}},
       &Result::transitions};
+  return table;
+}
+
+template <>
+const RunTable<SupportContact>& run_table() {
+  static const RunTable<SupportContact> table = {
+      "supports.csv", "of a beam that can lift off its supports: one row per contact with one of them, in both halves of a symmetric beam",
+      {{"spring", "number of the support in beam.springs, from 1; ends that rest follow after these; a mirror image has the number of the support modelled", [](const SupportContact& contact) { return contact.spring + 1; }},
+       {"position_m", "its position along the beam", &SupportContact::position},
+       {"start_s", "instant at which the beam touches it; 0: it lay there", &SupportContact::start},
+       {"end_s", "instant at which the beam lifts off; empty: after the run's end", &SupportContact::end},
+       {"peak_force_N", "largest force; contacts below 1e-9 of the largest of the run are left out", &SupportContact::peak_force},
+       {"impulse_Ns", "of the force", &SupportContact::impulse},
+       {"start_error_s", "error of start_s; this and the next: empty where not known, or the contact has no counterpart on other meshes", &SupportContact::start_error},
+       {"end_error_s", "error of end_s", &SupportContact::end_error}},
+      &Result::support_contacts};
   return table;
 }
 
@@ -137,14 +156,14 @@ const RunTable<HistoryRow>& run_table() {
        {"stress_back_Pa", "stress of the outer fibre behind the struck point, positive in tension", &HistoryRow::back_stress},
        {"U_m_J", "kinetic energy of the striker", &HistoryRow::striker_energy},
        {"U_k_J", "kinetic energy of the beam", &HistoryRow::beam_kinetic_energy},
-       {"U_e_J", "elastic energy of bending, shear, tension, springs and bedding", &HistoryRow::bending_elastic},
+       {"U_e_J", "elastic energy of bending, shear, tension, springs, supports and bedding", &HistoryRow::bending_elastic},
        {"U_p_J", "energy dissipated by bending and tension", &HistoryRow::bending_plastic},
        {"U_c_J", "elastic energy of the contact", &HistoryRow::contact_elastic},
        {"D_c_J", "energy dissipated by the contact", &HistoryRow::contact_plastic},
        {"energy_error", "relative error of the sum of these six and D_b_J less W_J", &HistoryRow::energy_error},
        {"momentum_error", "relative error of the momentum; empty where supports take momentum up", &HistoryRow::momentum_error},
-       {"D_b_J", "energy dissipated by the damping of the beam", &HistoryRow::beam_damping},
-       {"R_0_N", "force of the support at x = 0 on the beam, positive in the direction of the strike; empty: free end", &HistoryRow::first_reaction},
+       {"D_b_J", "energy dissipated by the damping of the beam and its supports", &HistoryRow::beam_damping},
+       {"R_0_N", "force of the support at x = 0 on the beam, positive in the direction of the strike; 0 where the beam has lifted off; empty: free end", &HistoryRow::first_reaction},
        {"R_l_N", "the same at x = length", &HistoryRow::last_reaction},
        {"W_J", "work of gravity and loads on striker and beam since the start", &HistoryRow::work}},
       &Result::history, add_gauges};

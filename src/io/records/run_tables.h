@@ -23,7 +23,8 @@ struct RunTable {
   }
 };
 
-/// For SubImpact, Transition, HistoryRow, SectionRow, PointRow, ShapeRow, EnvelopeRow, StrikeRow.
+/// For SubImpact, Transition, SupportContact, HistoryRow, SectionRow, PointRow, ShapeRow,
+/// EnvelopeRow, StrikeRow.
 template <class Row>
 const RunTable<Row>& run_table();
 
@@ -31,6 +32,7 @@ template <class Use>
 void for_each_run_table(Use use) {
   use(run_table<SubImpact>());
   use(run_table<Transition>());
+  use(run_table<SupportContact>());
   use(run_table<HistoryRow>());
   use(run_table<SectionRow>());
   use(run_table<PointRow>());

@@ -29,6 +29,7 @@ SprungMesh::SprungMesh(std::shared_ptr<const BeamMesh> other, const Beam& beam, 
   ground_force_.assign(n_unknowns(), 0.0);
   ground_moment_.assign(n_unknowns(), 0.0);
   for (const Spring& spring : beam.springs) {
+    if (spring.one_sided) continue;
     const double x = spring.position * beam.length;
     add_spring(x, spring.stiffness, beam.length);
     std::vector<double> unit(n_unknowns(), 0.0), response;

@@ -23,6 +23,8 @@ constexpr Words words_of_parts[] = {
      "strike more softly, or compare with a 3-D solid"},
     {BodyPart::stretching, "stretching of beam",
      "beam.axial = \"held\" or \"free\", as the supports are"},
+    {BodyPart::support, "support stiffness",
+     "measure it, and give beam.springs with one_sided = true for ends that rest"},
     {BodyPart::hinge_length, "length of the hinge", "no theory of beams knows it"},
     {BodyPart::thin_openings, "thin openings", "count gaps so thin as closed: --opening 10um"}};
 

@@ -8,6 +8,7 @@
 #include "io/printable.h"
 #include "report/text/body_words.h"
 #include "report/text/strike_words.h"
+#include "report/text/support_words.h"
 #include "report/text/uncertain.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/report/text.h"
@@ -217,6 +218,7 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
   if (const std::string caveat = outcome_caveat(result); !caveat.empty()) line("outcome", caveat);
   if (result.tolerance) line("tolerance", tolerance_words(*result.tolerance, result));
   text += wrapped(result.verdict.text) + '\n' + answer_table(result, verbose) + '\n';
+  for (const auto& [label, words] : support_words(input, result)) line(label.c_str(), words);
   if (!result.all_certain()) line("not certain", error_words(result));
   text += body_words(result, verbose);
   if (result.error_estimate && !error_of_total(result, RunTotal::impulse)) {

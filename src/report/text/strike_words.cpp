@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "case/counted.h"
@@ -15,6 +16,10 @@ std::string mass_text(double mass) {
   if (mass >= 1e4) return fmt::format("{:.4g} t", 1e-3 * mass);
   const ReadUnit unit = unit_for(1e3 * mass, {"g", 3});
   return with_unit(fmt::format("{:.4g}", unit.per_si * 1e3 * mass), unit);
+}
+
+std::string end_name(const Beam& beam, std::size_t end) {
+  return beam.rests[end] ? "resting" : name_of(beam.ends[end]);
 }
 
 std::string striker_words(const Scene& scene, const std::string& contact) {
@@ -40,9 +45,14 @@ std::string others_in_scene(const Scene& scene) {
       "gravity sets the velocity and does not act in the run");
   add(beam.load != 0.0, fmt::format("load {:.6g} N/m", beam.load));
   add(!beam.forces.empty(), counted(beam.forces.size(), "force"));
-  add(!beam.springs.empty(), counted(beam.springs.size(), "spring"));
+  const auto n_one_sided = static_cast<std::size_t>(
+      std::ranges::count_if(beam.springs, [](const Spring& s) { return s.one_sided.has_value(); }));
+  const std::size_t n_springs = beam.springs.size() - n_one_sided;
+  add(n_springs > 0, counted(n_springs, "spring"));
+  add(n_one_sided > 0, counted(n_one_sided, "support") + " that it can lift off");
   add(beam.foundation > 0.0, fmt::format("bedding {:.6g} N/m2", beam.foundation));
-  add(beam.start == BeamStart::equilibrium, "beam in equilibrium at the start");
+  add(beam.start == BeamStart::equilibrium || beam.rests[0] || beam.rests[1],
+      "beam in equilibrium at the start");
   add(beam.velocity != 0.0, fmt::format("beam moving at {:.6g} m/s", beam.velocity));
   add(beam.angular_velocity != 0.0,
       fmt::format("beam turning at {:.6g} rad/s about {:.6g} of its length", beam.angular_velocity,
@@ -55,17 +65,16 @@ std::string strike_words(const Case& input, const Result& result) {
   const double x = scene.striker.position;
   const std::string where = x == 0.5 ? std::string("the middle")
                             : x == 0.0 || x == 1.0
-                                ? fmt::format("the {} end", name_of(scene.beam.ends[x == 1.0]))
+                                ? fmt::format("the {} end", end_name(scene.beam, x == 1.0))
                                 : fmt::format("{:.4g} of the length", x);
   const std::string others = others_in_scene(scene);
   const std::size_t n = result.strikes.size();
   return fmt::format(
       "{}{}, {}{}", n > 1 ? fmt::format("the last of {}: ", n) : "",
       striker_words(scene, contact_words(input)),
-      scene.beam.fixed
-          ? std::string("on a plane that does not move")
-          : fmt::format("at {} of a {}-{} beam of {}", where, name_of(scene.beam.ends[0]),
-                        name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
+      scene.beam.fixed ? std::string("on a plane that does not move")
+                       : fmt::format("at {} of a {}-{} beam of {}", where, end_name(scene.beam, 0),
+                                     end_name(scene.beam, 1), mass_text(scene.beam.mass())),
       others.empty() ? "" : "; " + others);
 }
 

@@ -46,6 +46,7 @@ class Audit {
   bool is_suspicious(double t, const State& y, double indentation, double rate) const;
   /// Judges the impulse of a sub-impact (N s) that ended at t against the integrated force.
   void check_impulse(double t, double impulse, double force_integral);
+  const StruckBeam& beam() const { return accounts_.beam(); }
   /// Relative to the initial energy.
   double tolerated_energy() const { return limits_.energy; }
   /// By how much the energy that damping dissipates in a step may be off, J.

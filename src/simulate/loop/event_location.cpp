@@ -28,18 +28,30 @@ RootOptions to_rounding(double time) { return {8.0 * epsilon * time}; }
 
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at) {
-  const double of_value = function.of_rate() ? velocity_rounding * beam.scales().velocity
-                                             : std::max(beam.displacement_rounding(y),
-                                                        epsilon * beam.scales().position);
+  const double of_value = function.of_rate()     ? velocity_rounding * beam.scales().velocity
+                          : function.contact > 0 ? beam.dead_length(y, function.contact)
+                                                 : std::max(beam.displacement_rounding(y),
+                                                            epsilon * beam.scales().position);
   return of_value + epsilon * t * std::abs(at.rate);
 }
 
-std::optional<Crossing> EventLocator::find_crossing_in(const IndentationStep& ends,
+std::optional<Crossing> EventLocator::find_crossing_in(const IndentationStep& ends, const State& y0,
                                                        const State& y1) {
-  // A double root needs an indentation that reverses.
-  const bool double_roots = double_roots_ && (ends.rate0 > 0.0) != (ends.rate1 > 0.0);
-  const double rounding = double_roots ? beam_.displacement_rounding(y1) : 0.0;
-  return find_crossing(beam_.contact(), ends, {dealt_with_, double_roots, rounding});
+  std::optional<Crossing> earliest;
+  for (std::size_t i = 0; i < beam_.n_contacts(); ++i) {
+    const IndentationStep own =
+        i == 0 ? ends : indentation_step(beam_, i, ends.t0, ends.t1, y0, y1);
+    // A double root needs an indentation that reverses.
+    const bool double_roots = double_roots_ && (own.rate0 > 0.0) != (own.rate1 > 0.0);
+    const double dead_length = beam_.dead_length(y1, i);
+    const double rounding = i > 0          ? dead_length
+                            : double_roots ? beam_.displacement_rounding(y1)
+                                           : 0.0;
+    auto found =
+        find_crossing(beam_.contact(i), own, {dealt_with_, double_roots, rounding, i, dead_length});
+    if (found && !(earliest && earliest->guess <= found->guess)) earliest = std::move(found);
+  }
+  return earliest;
 }
 
 FoundEnd EventLocator::find_end(const StepEnds& whole, const IndentationStep& indentation) {
@@ -50,7 +62,7 @@ FoundEnd EventLocator::find_end(const StepEnds& whole, const IndentationStep& in
     corrector_.correct({whole.t0, end.t, whole.y0, *end.y, whole.event_free}, correction_);
     if (!(correction_.valid_until < end.t)) {
       if (correction_.is_empty()) return end;
-      if (!end.event) end.event = event_of_correction(indentation, end);
+      if (!end.event) end.event = event_of_correction(indentation, whole.y0, end);
       if (!end.event) return end;
       const std::optional<double> time =
           relocate(*end.event, {whole.t0, end.t, whole.y0, *end.y}, whole.t1);
@@ -72,7 +84,7 @@ FoundEnd EventLocator::find_event(const StepEnds& whole, IndentationStep ends, F
     ends.rate1 = beam_.indentation_rate(*end.y);
   };
   if (end.t < ends.t1) cut();
-  while (auto crossing = find_crossing_in(ends, *end.y)) {
+  while (auto crossing = find_crossing_in(ends, whole.y0, *end.y)) {
     const StepEnds step{whole.t0, end.t, whole.y0, *end.y};
     dealt_with_.push_back(crossing->function);
     if (crossing->unresolved && !resolve(*crossing, step)) continue;
@@ -84,6 +96,7 @@ FoundEnd EventLocator::find_event(const StepEnds& whole, IndentationStep ends, F
 }
 
 std::optional<EventFunction> EventLocator::event_of_correction(IndentationStep ends,
+                                                               const State& y0,
                                                                const FoundEnd& end) {
   if (events_ != EventHandling::located) return std::nullopt;
   trial_ = *end.y;
@@ -91,7 +104,7 @@ std::optional<EventFunction> EventLocator::event_of_correction(IndentationStep e
   ends.t1 = end.t;
   ends.lambda1 = beam_.indentation(trial_);
   ends.rate1 = beam_.indentation_rate(trial_);
-  const std::optional<Crossing> crossing = find_crossing_in(ends, trial_);
+  const std::optional<Crossing> crossing = find_crossing_in(ends, y0, trial_);
   if (!crossing || !(beam_.evaluate(crossing->function, trial_).value > 0.0)) return std::nullopt;
   return crossing->function;
 }
@@ -100,7 +113,7 @@ FoundEnd EventLocator::event_of_integrator(const StepEnds& whole, FoundEnd end) 
   const auto root = integrator_.root();
   if (!root || whole.t1 < integrator_.time()) return end;
   end_ = whole.y1;
-  return {end.t, &end_, beam_.contact().event_functions()[root->function]};
+  return {end.t, &end_, ContactEventFunctions::function_of(beam_, root->function)};
 }
 
 bool EventLocator::resolve(Crossing& crossing, const StepEnds& step) {
@@ -111,12 +124,18 @@ bool EventLocator::resolve(Crossing& crossing, const StepEnds& step) {
       [&](double t) {
         integrator_.state_at(t, trial_);
         beam_.set_time(t);
-        const EventValue at = beam_.evaluate(EventKind::contact_unloads, trial_);
+        EventFunction reversal(EventKind::contact_unloads);
+        reversal.contact = crossing.function.contact;
+        const EventValue at = beam_.evaluate(reversal, trial_);
         return EventValue{sense * at.value, sense * at.rate};
       },
       step.t0, step.t1, crossing.guess, to_rounding(step.t1));
   const double height = beam_.evaluate(crossing.function, trial_).value;
-  if (!(height > beam_.displacement_rounding(trial_))) return false;
+  const std::size_t contact = crossing.function.contact;
+  if (!(height > std::max(beam_.displacement_rounding(trial_, contact),
+                          beam_.dead_length(trial_, contact)))) {
+    return false;
+  }
   crossing.t_upper = top;
   crossing.guess = 0.5 * (crossing.t_lower + top);
   return true;

@@ -22,7 +22,7 @@ struct FoundEnd {
   std::optional<EventFunction> event = {};
 };
 
-/// Finds the end of a step: its first event of the contact (docs/theory.md, "Events"), or where its
+/// Finds the end of a step: its first event of any contact (docs/theory.md, "Events"), or where its
 /// section correction stops being valid, or its own end. If sections leave their smooth pieces
 /// before the event, it is located again on the corrected trajectory.
 ///
@@ -51,8 +51,11 @@ class EventLocator {
   FoundEnd event_of_integrator(const StepEnds& whole, FoundEnd end);
   // The event of a step to `end` that appears only when the correction is added. `ends`: of the
   // whole step.
-  std::optional<EventFunction> event_of_correction(IndentationStep ends, const FoundEnd& end);
-  std::optional<Crossing> find_crossing_in(const IndentationStep& ends, const State& y1);
+  std::optional<EventFunction> event_of_correction(IndentationStep ends, const State& y0,
+                                                   const FoundEnd& end);
+  // `ends`: of the striker's contact.
+  std::optional<Crossing> find_crossing_in(const IndentationStep& ends, const State& y0,
+                                           const State& y1);
   // Whether the double root of a crossing exists; if so, narrows it to the first of the two.
   bool resolve(Crossing& crossing, const StepEnds& step);
   // The instant of a crossing (s), its state in trial_.

@@ -38,10 +38,13 @@ EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& obse
       options_(options),
       corrector_(beam, options.correction_tolerance),
       locator_(beam, integrator, corrector_, options.events, options.double_roots),
-      losses_(audit.tolerated_loss()) {
+      losses_(audit, options.events),
+      watches_(beam.n_contacts()) {
   const bool located = options.events != EventHandling::interpolated;
   const bool corrects = located && std::isfinite(options.correction_tolerance);
-  beam_.contact().set_evaluation(located ? Evaluation::smooth : Evaluation::switching);
+  for (std::size_t i = 0; i < beam_.n_contacts(); ++i) {
+    beam_.contact(i).set_evaluation(located ? Evaluation::smooth : Evaluation::switching);
+  }
   beam_.set_section_evaluation(corrects ? Evaluation::smooth : Evaluation::switching);
 }
 
@@ -49,6 +52,7 @@ void EventLoop::start() {
   const State y = beam_.initial_state();
   end_state_ = y;
   state_ = &end_state_;
+  beam_.settle_on_supports(y);
   beam_.commit(y);
   if (options_.begins_apart) return start_from(y);
   if (options_.first_touch > 0.0) observer_.on_approach(options_.first_touch, beam_);
@@ -138,6 +142,7 @@ void EventLoop::show_piece(const StepEnds& piece, bool from_end) {
   observer_.on_step(step, beam_);
   if (beam_.has_losses()) {
     beam_.add_losses(losses_.over(step, step.t1(), step.y1(), beam_));
+    beam_.add_support_impulses(losses_.support_impulses());
   }
 }
 
@@ -157,13 +162,14 @@ void EventLoop::locate_events() {
   state_ = y1;
   if (event) {
     report(*event, t1, *y1, true);
+    report_simultaneous(*event, t1, *y1);
   } else {
     beam_.commit(*y1);
   }
   const bool at_corner = pass_corner(t1, *y1);
   if (!event && !is_corrected && !at_corner && t1 == whole.t1) return;
   integrator_.restart(t1, *y1);
-  if (event && event->kind == EventKind::contact_begins) {
+  if (event && event->contact == 0 && event->kind == EventKind::contact_begins) {
     integrator_.limit_next_step(options_.first_step_of_contact);
   }
   state_ = &integrator_.state();
@@ -189,28 +195,51 @@ void EventLoop::report_reversals() {
   for (const Transition& reversal : reversals_) observer_.on_reversal(reversal);
 }
 
+void EventLoop::report_simultaneous(const EventFunction& event, double time, const State& y) {
+  for (std::size_t i = 1; i < beam_.n_contacts(); ++i) {
+    if (i == event.contact) continue;
+    for (EventFunction function : beam_.contact(i).event_functions()) {
+      function.contact = i;
+      if (function.of_rate()) continue;
+      const EventValue at = beam_.evaluate(function, y);
+      const double rounding = rounding_of(function, beam_, y, time, at);
+      if (!(std::abs(at.value) <= rounding && at.rate * time > rounding)) continue;
+      report(function, time, y, true);
+      break;
+    }
+  }
+}
+
 void EventLoop::report(const EventFunction& function, double time, const State& y,
                        bool changes_branch) {
-  if (function.kind == EventKind::contact_ends && beam_.contact().is_recovering()) {
+  ContactState& contact = beam_.contact(function.contact);
+  const double indentation = beam_.indentation(y, function.contact);
+  if (function.kind == EventKind::contact_ends && contact.is_recovering()) {
     beam_.commit(y);  // the surface has recovered; no force changes
-    beam_.contact().pass(function, beam_.indentation(y));
+    contact.pass(function, indentation);
     return;
   }
-  const Transition event{time, function.kind, {}, beam_.indentation(y)};
+  Transition event{time, function.kind, {}, indentation};
+  if (function.contact > 0) {
+    event.kind = function.kind == EventKind::contact_begins ? EventKind::support_touches
+                                                            : EventKind::support_lifts;
+    event.spring = beam_.supports()[function.contact - 1].spring;
+  }
   if (changes_branch) check_root(function, time, y);
-  watch_for_chattering(time);
-  const bool audited = observer_.audits_events();
+  watch_for_chattering(function.contact, time);
+  const bool audited = observer_.audits_events() && function.contact == 0;
   if (!audited) audit_.check(time, y);
   ++n_events_;
+  losses_.forget_neighbours();
   observer_.before_event(event, y, beam_);
   if (changes_branch) {
     beam_.commit(y);
-    beam_.contact().pass(function, beam_.indentation(y));
+    contact.pass(function, indentation);
   } else {
-    beam_.contact().set(branch_after(function.kind), beam_.contact().history());
+    contact.set(branch_after(function.kind), contact.history());
   }
   const bool touches = function.kind == EventKind::contact_begins && !function.of_rate();
-  if (touches) beam_.contact().touch(beam_.indentation_rate(y));
+  if (touches) contact.touch(beam_.indentation_rate(y, function.contact));
   if (!audited) audit_.check(time, y);
   observer_.after_event(event, y, beam_);
 }
@@ -232,51 +261,63 @@ void EventLoop::check_root(const EventFunction& function, double time, const Sta
                 "{} was located at {}, before the event that precedes it", to_string(function.kind),
                 instant_text(time));
   }
-  if (function.kind == EventKind::contact_begins) contact_start_ = time;
-  if (function.kind == EventKind::contact_ends && !(time > contact_start_)) {
+  Watch& watch = watches_[function.contact];
+  if (function.kind == EventKind::contact_begins) watch.contact_start = time;
+  if (function.contact == 0 && function.kind == EventKind::contact_ends &&
+      !(time > watch.contact_start)) {
     audit_.fail(time, OutcomeKind::inaccurate,
                 "the contact that begins at {} ends at the same instant", instant_text(time));
   }
   last_event_ = time;
 }
 
-void EventLoop::watch_for_chattering(double time) {
-  if (time - events_since_ > options_.shortest_contact) {
-    events_since_ = time;
-    n_events_in_place_ = 0;
+void EventLoop::watch_for_chattering(std::size_t contact, double time) {
+  Watch& watch = watches_[contact];
+  if (time - watch.events_since > options_.shortest_contact) {
+    watch.events_since = time;
+    watch.n_in_place = 0;
   }
-  if (++n_events_in_place_ <= most_events_in_place) return;
-  audit_.fail(time, OutcomeKind::chattering,
-              "the contact changed its state {} times within {:.2e} us", n_events_in_place_,
-              us * (time - events_since_));
+  if (++watch.n_in_place <= most_events_in_place) return;
+  audit_.fail(time, OutcomeKind::chattering, "{} changed its state {} times within {:.2e} us",
+              contact == 0 ? "the contact" : "a support that lifts", watch.n_in_place,
+              us * (time - watch.events_since));
 }
 
 void EventLoop::interpolate_events() {
   const StepEnds step = step_to_end_time();
-  const ContactState& contact = beam_.contact();
-  const IndentationStep whole = indentation_of(step);
-  const ContactBranch after = contact.law().branch(contact.history(), whole.lambda1);
+  interpolated_.clear();
+  for (std::size_t i = 0; i < beam_.n_contacts(); ++i) {
+    const ContactState& contact = beam_.contact(i);
+    const IndentationStep whole =
+        i == 0 ? indentation_of(step)
+               : indentation_step(beam_, i, step.t0, step.t1, step.y0, step.y1);
+    const ContactBranch after = contact.law().branch(contact.history(), whole.lambda1);
+    if (after == contact.branch()) continue;
+    if (i > 0 && std::abs(whole.lambda1) <= beam_.dead_length(step.y1, i)) continue;
+    subimpact::interpolate_events(contact, i, whole, after, interpolated_);
+  }
+  std::ranges::stable_sort(interpolated_, {}, &InterpolatedEvent::time);
   double t0 = step.t0;
   const State* y0 = &step.y0;
   bool from_end = false;
-  if (after != contact.branch()) {
-    for (const auto& [kind, time] : subimpact::interpolate_events(contact, whole, after)) {
-      // Forces act at the ends of steps: before contact begins the motion is that of the step's
-      // start, after it ends that of the step's end, both without the contact force.
-      from_end = kind == EventKind::contact_ends;
-      piece_start_ = *y0;
-      const StepEnds piece{t0, time, piece_start_, event_state_};
-      if (from_end) {
-        integrator_.state_before_end(time, event_state_);
-      } else {
-        integrator_.state_at(time, event_state_);
-      }
-      show_piece(piece);
-      report({kind}, time, event_state_, false);
-      t0 = time;
-      y0 = &event_state_;
+  for (const auto& [function, time] : interpolated_) {
+    // Forces act at the ends of steps: before contact begins the motion is that of the step's
+    // start, after it ends that of the step's end, both without the contact force.
+    from_end = function.kind == EventKind::contact_ends;
+    piece_start_ = *y0;
+    const StepEnds piece{t0, time, piece_start_, event_state_};
+    if (from_end) {
+      integrator_.state_before_end(time, event_state_);
+    } else {
+      integrator_.state_at(time, event_state_);
     }
-    beam_.contact().follow(whole.lambda1);
+    show_piece(piece);
+    report(function, time, event_state_, false);
+    t0 = time;
+    y0 = &event_state_;
+  }
+  for (const auto& [function, time] : interpolated_) {
+    beam_.contact(function.contact).follow(beam_.indentation(step.y1, function.contact));
   }
   show_piece({t0, step.t1, *y0, step.y1}, from_end);
   const bool is_evaluated_last =

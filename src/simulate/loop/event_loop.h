@@ -88,9 +88,11 @@ class EventLoop {
   void show_piece(const StepEnds& piece, bool from_end = false);
   void report_reversals();
   void report(const EventFunction& function, double time, const State& y, bool changes_branch);
+  // Events of supports at the instant of another contact's, as symmetry has them.
+  void report_simultaneous(const EventFunction& event, double time, const State& y);
   // Throws RunStopped unless the state meets the event function at this time, from the right side.
   void check_root(const EventFunction& function, double time, const State& y);
-  void watch_for_chattering(double time);
+  void watch_for_chattering(std::size_t contact, double time);
   // Checks the end of every step, before events are searched in the step.
   void check_step_end();
   void read_indentation();
@@ -110,11 +112,15 @@ class EventLoop {
   SectionCorrector corrector_;
   EventLocator locator_;
   LossQuadrature losses_;
-  std::vector<Transition> reversals_;  // of the step being searched, in their order
+  std::vector<Transition> reversals_;            // of the step being searched, in their order
+  std::vector<InterpolatedEvent> interpolated_;  // of the step
   double last_event_ = 0.0;
-  double contact_start_ = 0.0;
-  double events_since_ = 0.0;  // s: of the events counted by n_events_in_place_
-  long n_events_in_place_ = 0;
+  struct Watch {  // over the events of one contact
+    double contact_start = 0.0;
+    double events_since = 0.0;  // s: of the events counted by n_in_place
+    long n_in_place = 0;
+  };
+  std::vector<Watch> watches_;
   long n_events_ = 0;
   long n_steps_ = 0;
   long evaluations_at_end_ = 0;  // of the acceleration, when the step's end was reached

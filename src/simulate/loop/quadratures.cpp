@@ -16,6 +16,9 @@ constexpr int most_halvings_of_force = 8;
 // Lengths of two steps that differ by more tell nothing of the fourth derivative.
 constexpr double largest_ratio = 1e3;
 
+// Tolerated error of the impulse of a support over a step, as a share of the tolerated one.
+constexpr double share_of_impulse = 1e-3;
+
 double fifth_power(double h) { return h * h * h * h * h; }
 
 constexpr int most_halvings_of_loss = 6;
@@ -53,6 +56,13 @@ HermiteWeights quintic_weights(double s, double h) {
   return weights;
 }
 
+bool is_damped_in_contact(const StruckBeam& beam) {
+  for (std::size_t i = 0; i < beam.n_contacts(); ++i) {
+    if (beam.contact(i).is_damped() && beam.contact(i).is_closed()) return true;
+  }
+  return false;
+}
+
 bool needs_halving(double quintic, double cubic, double tolerance) {
   if (!(std::abs(quintic) > tolerance)) return false;
   const double share = std::abs((quintic - cubic) / quintic);
@@ -62,11 +72,11 @@ bool needs_halving(double quintic, double cubic, double tolerance) {
 }  // namespace
 
 template <std::size_t n_points>
-double ForceQuadrature::between(const Node& a, const Node& b, const StruckBeam& beam) {
+double ForceQuadrature::between(const Node& a, const Node& b, const StruckBeam& beam) const {
   const double h = b.time - a.time;
   if (!(h > 0.0)) return 0.0;
   const HermiteCubic indentation(a.indentation, a.rate, b.indentation, b.rate, h);
-  const ContactState& contact = beam.contact();
+  const ContactState& contact = beam.contact(contact_);
   double sum = 0.0;
   for (std::size_t i = 0; i < n_points; ++i) {
     const double s = gauss<n_points>.points[i];
@@ -94,7 +104,7 @@ double ForceQuadrature::halved(const Node& a, const Node& b, double whole, const
 double ForceQuadrature::over(const ObservedStep& step, const StruckBeam& beam) {
   largest_indentation_ = 0.0;
   if (!(step.length() > 0.0)) return 0.0;  // an event at the very start of a step
-  const auto [a, b] = ends_of(step);
+  const auto [a, b] = ends_of(step, beam);
   const double h = step.length();
   const double whole = between(a, b, beam);
   double constant = 0.0;
@@ -114,8 +124,24 @@ double ForceQuadrature::over(const ObservedStep& step, const StruckBeam& beam) {
 }
 
 double ForceQuadrature::roughly_over(const ObservedStep& step, const StruckBeam& beam) const {
-  const auto [a, b] = ends_of(step);
+  const auto [a, b] = ends_of(step, beam);
   return between<2>(a, b, beam);
+}
+
+double ForceQuadrature::up_to(double t, const State& y, const ObservedStep& step,
+                              const StruckBeam& beam) {
+  const Node a = node(step.t0(), step.y0(), beam), b = node(t, y, beam);
+  const double whole = between(a, b, beam);
+  return std::abs(whole) > tolerance_ ? halved(a, b, whole, step, beam, 1) : whole;
+}
+
+LossQuadrature::LossQuadrature(const Audit& audit, EventHandling events)
+    : tolerance_(audit.tolerated_loss()),
+      events_(events),
+      impulses_(audit.beam().supports().size()) {
+  for (std::size_t i = 0; i < impulses_.size(); ++i) {
+    forces_.emplace_back(share_of_impulse * audit.tolerated_impulse(), i + 1);
+  }
 }
 
 void LossQuadrature::read_acceleration(Node& node, StruckBeam& beam) {
@@ -134,7 +160,7 @@ Losses LossQuadrature::between(const Node& a, const Node& b, bool quintic, Struc
   const std::size_t n = beam.n_positions();
   const double h = b.time - a.time;
   const ContactState& contact = beam.contact();
-  const bool has_damping = beam_by_quadrature_ || (contact.is_closed() && contact.is_damped());
+  const bool has_damping = beam_by_quadrature_ || is_damped_in_contact(beam);
   Losses sum;
   state_.resize(2 * n);
   for (std::size_t k = 0; k < n_points; ++k) {
@@ -158,6 +184,12 @@ Losses LossQuadrature::between(const Node& a, const Node& b, bool quintic, Struc
     if (contact.is_closed()) {
       sum.contact +=
           weight * contact.damping_power(beam.indentation(state_), beam.indentation_rate(state_));
+    }
+    for (std::size_t i = 1; i < beam.n_contacts(); ++i) {
+      if (!beam.contact(i).is_closed()) continue;
+      sum.beam += weight * beam.supports()[i - 1].copies *
+                  beam.contact(i).damping_power(beam.indentation(state_, i),
+                                                beam.indentation_rate(state_, i));
     }
     if (beam_by_quadrature_) {
       sum.beam += weight * beam.damping_power(beam.beam_velocities(state_));
@@ -188,24 +220,33 @@ Losses LossQuadrature::halved(const Node& a, const Node& b, const ObservedStep& 
 
 Losses LossQuadrature::over(const ObservedStep& step, double t, const State& y, StruckBeam& beam) {
   Losses sum;
+  std::ranges::fill(impulses_, 0.0);
   if (!(t > step.t0())) return sum;
   const std::span<const double> damping = beam.modal_damping();
   squares_.resize(beam.n_positions());
   const bool has_closed_form = !damping.empty() && !beam.damping().is_none() &&
                                step.integrate_squared_velocities(t, squares_);
   beam_by_quadrature_ = !beam.damping().is_none() && !has_closed_form;
-  const ContactState& contact = beam.contact();
-  const bool damped_contact = contact.is_damped() && contact.is_closed();
-  if (beam_by_quadrature_ || damped_contact || beam.loads().varies()) {
+  if (beam_by_quadrature_ || is_damped_in_contact(beam) || beam.loads().varies()) {
     Node start{step.t0(), step.y0(), {}, {}};
     Node end{t, y, {}, {}};
     read_acceleration(start, beam);
     read_acceleration(end, beam);
     sum = halved(start, end, step, beam, 0);
   }
-  if (contact.is_recovering()) {
-    sum.contact = contact.energies(beam.indentation(step.y0())).elastic -
-                  contact.energies(beam.indentation(y)).elastic;
+  for (std::size_t i = 0; i < beam.n_contacts(); ++i) {
+    const ContactState& contact = beam.contact(i);
+    if (!contact.is_recovering()) continue;
+    const double lost = contact.energies(beam.indentation(step.y0(), i)).elastic -
+                        contact.energies(beam.indentation(y, i)).elastic;
+    (i == 0 ? sum.contact : sum.beam) += i == 0 ? lost : beam.supports()[i - 1].copies * lost;
+  }
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
+    if (!beam.contact(i + 1).exerts_force()) continue;
+    impulses_[i] = events_ == EventHandling::interpolated
+                       ? forces_[i].roughly_up_to(t, y, step, beam)
+                   : t < step.t1() ? forces_[i].up_to(t, y, step, beam)
+                                   : forces_[i].over(step, beam);
   }
   if (has_closed_form) {
     for (std::size_t k = 0; k < damping.size(); ++k) {

@@ -5,16 +5,19 @@
 #include <utility>
 #include <vector>
 
+#include "simulate/loop/audit.h"
 #include "simulate/loop/observed_step.h"
+#include "subimpact/simulate/options.h"
 
 namespace subimpact {
 
-/// Integral of the contact force over time, from the indentation alone: independent of the
+/// Integral of the force of a contact over time, from the indentation alone: independent of the
 /// striker's velocity, whose change it must equal (docs/theory.md, "Accounts").
 class ForceQuadrature {
  public:
   /// `tolerance` of a step's integral, N s.
-  explicit ForceQuadrature(double tolerance) : tolerance_(tolerance) {}
+  explicit ForceQuadrature(double tolerance, std::size_t contact = 0)
+      : tolerance_(tolerance), contact_(contact) {}
 
   /// Call where the force or one of its derivatives may jump: at events.
   void forget_neighbour() { previous_.reset(); }
@@ -25,20 +28,27 @@ class ForceQuadrature {
   double largest_indentation() const { return largest_indentation_; }
   /// The integral without correction or halving, for steps in pieces.
   double roughly_over(const ObservedStep& step, const StruckBeam& beam) const;
+  double roughly_up_to(double t, const State& y, const ObservedStep& step,
+                       const StruckBeam& beam) const {
+    return between<2>(node(step.t0(), step.y0(), beam), node(t, y, beam), beam);
+  }
+  /// Integral from the start of the step to a time t in it, where the state is y.
+  double up_to(double t, const State& y, const ObservedStep& step, const StruckBeam& beam);
 
  private:
   struct Node {
     double time, indentation, rate;
   };
-  static Node node(double time, const State& y, const StruckBeam& beam) {
-    return {time, beam.indentation(y), beam.indentation_rate(y)};
+  Node node(double time, const State& y, const StruckBeam& beam) const {
+    return {time, beam.indentation(y, contact_), beam.indentation_rate(y, contact_)};
   }
-  static std::pair<Node, Node> ends_of(const ObservedStep& step) {
+  std::pair<Node, Node> ends_of(const ObservedStep& step, const StruckBeam& beam) const {
+    if (contact_ > 0) return {node(step.t0(), step.y0(), beam), node(step.t1(), step.y1(), beam)};
     const IndentationStep& ends = step.indentation();
     return {{ends.t0, ends.lambda0, ends.rate0}, {ends.t1, ends.lambda1, ends.rate1}};
   }
   template <std::size_t n_points = 3>
-  static double between(const Node& a, const Node& b, const StruckBeam& beam);
+  double between(const Node& a, const Node& b, const StruckBeam& beam) const;
   double halved(const Node& a, const Node& b, double whole, const ObservedStep& step,
                 const StruckBeam& beam, int depth);
 
@@ -48,21 +58,27 @@ class ForceQuadrature {
     double constant;  // of its error, constant length^5; 0 where no step before it tells
   };
   double tolerance_;
+  std::size_t contact_;
   std::optional<Step> previous_;
   double largest_indentation_ = 0.0;
   State state_;
 };
 
-/// Energy that velocity-dependent forces dissipate, and what changing loads leave of their
-/// potential, integrated along the trajectory: independently of the energies, whose balance they
-/// close (docs/theory.md, "Accounts").
+/// Energy that velocity-dependent forces dissipate, what changing loads leave of their potential,
+/// and impulses of supports that lift, integrated along the trajectory: independently of the
+/// energies and momenta, whose balances they close (docs/theory.md, "Accounts").
 class LossQuadrature {
  public:
-  /// `tolerance` of a step's integral, J.
-  explicit LossQuadrature(double tolerance) : tolerance_(tolerance) {}
+  LossQuadrature(const Audit& audit, EventHandling events);
 
   /// Losses from the start of the step to a time t in it or at its end, where the state is y.
   Losses over(const ObservedStep& step, double t, const State& y, StruckBeam& beam);
+  /// What over() has found of each support, N s.
+  std::span<const double> support_impulses() const { return impulses_; }
+  /// As ForceQuadrature::forget_neighbour().
+  void forget_neighbours() {
+    for (ForceQuadrature& force : forces_) force.forget_neighbour();
+  }
 
  private:
   struct Node {
@@ -79,6 +95,9 @@ class LossQuadrature {
   Losses between(const Node& a, const Node& b, bool quintic, StruckBeam& beam);
 
   double tolerance_;
+  EventHandling events_;
+  std::vector<ForceQuadrature> forces_;  // of supports
+  std::vector<double> impulses_;
   bool beam_by_quadrature_ = false;
   State state_;  // between nodes
   std::vector<double> squares_;

@@ -18,19 +18,6 @@ namespace {
 // Tolerated error of the integral of the force over a step, as a share of that of an impulse.
 constexpr double share_of_step = 1.0 / 128.0;
 
-// Where f has its maximum in [low, high], if it has one local maximum there: by golden section.
-template <class Function>
-double maximum_in(const Function& f, double low, double high) {
-  constexpr double golden = 0.6180339887498949;
-  constexpr int n_sections = 24;
-  for (int i = 0; i < n_sections; ++i) {
-    const double a = high - golden * (high - low);
-    const double b = low + golden * (high - low);
-    (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
-  }
-  return 0.5 * (low + high);
-}
-
 // Change of force between rows, as a share of the largest force so far, if rows follow the force.
 constexpr double change_of_force = 0.01;
 
@@ -64,7 +51,8 @@ Recorder::Recorder(const StruckBeam& beam, double interval, EventHandling events
       accounts_(beam),
       first_flow_(beam.sections().size()),
       force_(share_of_step * audit.tolerated_impulse()),
-      losses_(audit.tolerated_loss()),
+      losses_(audit, events),
+      supports_(beam),
       largest_gap_(events != EventHandling::interpolated),
       striker_mass_(beam.striker_mass()) {
   last_row_.time = -1.0;  // none yet
@@ -82,6 +70,7 @@ void Recorder::keep_fields(const RunParts& parts) {
   const double length = parts.problem.beam.length;
   sections_ = sections_at(parts.given.output.sections, length, parts.beam.mesh());
   half_height_ = 0.5 * parts.problem.beam.height();
+  length_ = length;
   const double end = parts.beam.mesh().symmetric() ? 0.5 * length : length;
   for (int i = 0; i < n_rotations; ++i) {
     const auto rotation = parts.beam.mesh().rotation_at(end * i / (n_rotations - 1));
@@ -103,12 +92,17 @@ void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
     ++steps_in_contact_.back();
     integrate_force(step, beam);
     follow_peak(step.t1(), step.indentation().lambda1, beam);
-    if (beam.contact().is_damped()) follow_damped_force(step, beam);
+    if (beam.contact().is_damped()) {
+      const double so_far = result_.sub_impacts.back().peak_force;
+      const auto [time, force] = largest_force(step, beam, 0, so_far, state_);
+      follow_force(time, force);
+    }
     look_for_peak(step, beam);
   } else if (!result_.sub_impacts.empty()) {
     largest_gap_.follow(step, beam, *result_.sub_impacts.back().opening);
   }
   near_misses_.follow(step, beam, events_ == EventHandling::located);
+  supports_.on_step(step, beam, result_);
 }
 
 void Recorder::add_row_of_force(const ObservedStep& step, const StruckBeam& beam) {
@@ -143,7 +137,11 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
     }
     step.corrected_state_at(t, state_, correction_);
     const Losses before = beam.losses();
-    if (row && beam.has_losses()) beam.add_losses(losses_.over(step, t, state_, beam));
+    const bool has_losses = row && beam.has_losses();
+    if (has_losses) {
+      beam.add_losses(losses_.over(step, t, state_, beam));
+      beam.add_support_impulses(losses_.support_impulses());
+    }
     if (correction_.is_empty()) {
       add_rows(t, row, shape, state_, accounts_);
     } else {
@@ -152,6 +150,7 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
       add_rows(t, row, shape, state_, accounts);
     }
     beam.set_losses(before);
+    if (has_losses) beam.add_support_impulses(losses_.support_impulses(), -1.0);
   }
 }
 
@@ -205,28 +204,6 @@ void Recorder::follow_force(double time, double force) {
   largest_force_ = std::max(largest_force_, force);
 }
 
-void Recorder::follow_damped_force(const ObservedStep& step, const StruckBeam& beam) {
-  const double peak_so_far = result_.sub_impacts.back().peak_force;
-  const auto& [t0, t1, lambda0, rate0, lambda1, rate1] = step.indentation();
-  const double h = step.length();
-  if (!(h > 0.0)) return;
-  const HermiteCubic path(lambda0, rate0, lambda1, rate1, h);
-  const ContactState& contact = beam.contact();
-  const auto force = [&](double s) { return contact.force(path(s), path.slope(s) / h); };
-  double peak = std::max(force(0.0), force(1.0));
-  double time = force(0.0) > force(1.0) ? t0 : t1;
-  const double at = maximum_in(force, 0.0, 1.0);
-  // The force is stationary there, so that its time need not be exact.
-  if (force(at) > peak && force(at) > (1.0 - 1e-3) * peak_so_far) {
-    step.state_at(t0 + at * h, state_);
-    if (beam.contact_force(state_) > peak) {
-      time = t0 + at * h;
-      peak = beam.contact_force(state_);
-    }
-  }
-  follow_force(time, peak);
-}
-
 void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
   // In the plastic branch the peak is an event; in the elastic one it lies inside some step.
   if (beam.contact().branch() != ContactBranch::elastic) return;
@@ -254,6 +231,12 @@ void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
 
 void Recorder::before_event(const Transition& event, const State& y, StruckBeam& beam) {
   force_.forget_neighbour();
+  if (event.spring) {
+    if (event.kind == EventKind::support_lifts) supports_.lift(event, beam, result_);
+    result_.transitions.push_back(event);
+    if (observer_ != nullptr) observer_->before_event(event, {event.time, y, beam});
+    return;
+  }
   add_event_row(event, y);
   if (fields_) fields_->add_shape(event.time, y, accounts_);
   result_.transitions.push_back(event);
@@ -296,7 +279,7 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
       beam.contact().branch() == ContactBranch::plastic) {
     result_.first_contact_yield = event.time;
   }
-  add_event_row(event, y);
+  if (!event.spring) add_event_row(event, y);
   if (observer_ != nullptr) observer_->after_event(event, {event.time, y, beam});
 }
 
@@ -350,6 +333,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     result_.max_force = std::max(result_.max_force, s.peak_force);
     result_.max_indentation = std::max(result_.max_indentation, s.max_indentation);
   }
+  supports_.finish(beam, length_, result_);
   result_.final_energies = accounts_.energies(y, time);
   if (result_.sub_impacts.empty() || !result_.sub_impacts.front().end) {
     result_.parting = velocities(time, y);

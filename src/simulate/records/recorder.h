@@ -8,6 +8,7 @@
 #include "simulate/loop/quadratures.h"
 #include "simulate/near_miss_search.h"
 #include "simulate/records/field_recorder.h"
+#include "simulate/records/support_recorder.h"
 #include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
 
@@ -73,8 +74,6 @@ class Recorder final : public RunObserver {
   void integrate_force(const ObservedStep& step, const StruckBeam& beam);
   void follow_peak(double time, double indentation, const StruckBeam& beam);
   void follow_force(double time, double force);
-  // The peak of a damped force, which comes before that of the indentation.
-  void follow_damped_force(const ObservedStep& step, const StruckBeam& beam);
   void look_for_peak(const ObservedStep& step, StruckBeam& beam);
   // Contact only pushes: a force below zero by no more than the tolerance is none.
   void check_push(double time, double force) const;
@@ -98,6 +97,7 @@ class Recorder final : public RunObserver {
   FirstFlow first_flow_;
   ForceQuadrature force_;
   LossQuadrature losses_;  // within a step
+  SupportRecorder supports_;
   NearMissSearch near_misses_;
   LargestGap largest_gap_;
   double striker_mass_;
@@ -109,10 +109,10 @@ class Recorder final : public RunObserver {
   double beam_impulse_at_start_ = 0.0;
   double largest_force_ = 0.0;  // of all contacts so far, N
   State state_;
-  SectionCorrection correction_;           // of a state within a step
-  std::vector<std::size_t> sections_;      // whose bending is kept
-  double half_height_ = 0.0;               // m, of the section
-  std::unique_ptr<FieldRecorder> fields_;  // none: no field is kept
+  SectionCorrection correction_;             // of a state within a step
+  std::vector<std::size_t> sections_;        // whose bending is kept
+  double half_height_ = 0.0, length_ = 0.0;  // m, of section and beam
+  std::unique_ptr<FieldRecorder> fields_;    // none: no field is kept
   std::vector<SparseFunctional> rotations_;
   std::vector<double> rigid_motion_;  // at the struck point; empty: none
   std::vector<long> steps_in_contact_;

@@ -48,7 +48,8 @@ bool always_in_modes(const MethodDescriptor& method) {
 }
 bool is_of_sundials(const MethodDescriptor& method) { return method.sundials; }
 bool runs_in_modes(const Options& options, const StruckBeam& beam) {
-  return beam.tension() == nullptr && in_modes(options, beam.mesh(), beam.damping());
+  return beam.tension() == nullptr && beam.supports().empty() &&
+         in_modes(options, beam.mesh(), beam.damping());
 }
 bool takes_any_damping(const MethodDescriptor& method) {
   return method.damping == MethodDescriptor::Damping::any;
@@ -107,17 +108,23 @@ std::optional<int> max_order_used(const Options& options) {
 
 void check_contact_damping(const Problem& problem, const Options& options,
                            const ResolvedSettings& used) {
-  const double damping = problem.contact_damping;
+  double damping = problem.contact_damping;
+  const char* key = "contact.damping";
+  for (const Spring& spring : problem.beam.springs) {
+    if (damping > 0.0 || !spring.one_sided) continue;
+    damping = spring.one_sided->damping;
+    key = "beam.springs";
+  }
   if (damping == 0.0) return;
   const MethodDescriptor& method = descriptor_of(options.solver.method);
-  const char* const key = "contact.damping";
-  if (std::isfinite(problem.contact_law->yield_threshold({}))) {
+  if (problem.contact_damping > 0.0 && std::isfinite(problem.contact_law->yield_threshold({}))) {
     refuse(key, "is {:g} s/m, but the contact law yields; allowed: 0, or a law that never yields",
            damping);
   }
   if (!takes_any_damping(method)) {
     refuse(key,
-           "is {:g} s/m, but {} cannot integrate a contact force that depends on velocities; "
+           "has a damping of {:g} s/m, but {} cannot integrate a contact force that depends on "
+           "velocities; "
            "allowed solver.method: {}; choose one, or leave the damping out",
            damping, method.name, methods_that(takes_any_damping));
   }
@@ -165,7 +172,8 @@ void check_beam_damping(const BeamDamping& damping, const Options& options, bool
 }
 
 ReversalHandling reversals_used(const Problem& problem, const Options& options, bool can_yield) {
-  const bool damped = problem.contact_damping > 0.0 || !problem.beam.damping.is_none();
+  const bool damped = problem.contact_damping > 0.0 || !problem.beam.damping.is_none() ||
+                      problem.beam.has_damped_supports();
   if (!damped || !can_yield) return reversals_of(options);
   if (options.solver.reversals == ReversalHandling::located) {
     refuse("solver.reversals",
@@ -235,11 +243,14 @@ std::optional<double> step_used(const Options& options, const ResolvedSettings& 
   return step;
 }
 
-void check_tension(const Beam& beam, const Options& options) {
-  if (!beam.stretches()) return;
+void check_modes(const Beam& beam, const Options& options) {
+  if (beam.has_natural_modes()) return;
   const char* const because =
-      "beam.axial = \"held\" gives the beam a tension that grows with its deflection, and so no "
-      "natural modes";
+      beam.stretches()
+          ? "beam.axial = \"held\" gives the beam a tension that grows with its deflection, and so "
+            "no natural modes"
+          : "a beam that can lift off its supports (one_sided of beam.springs, \"rests\" of "
+            "beam.ends) has no natural modes";
   const MethodDescriptor& method = descriptor_of(options.solver.method);
   if (always_in_modes(method)) {
     refuse("solver.method", "is \"{}\", but {}; allowed solver.method: {}", method.name, because,

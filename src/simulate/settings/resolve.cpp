@@ -125,7 +125,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.n_sections = beam.mesh().n_sections();
   used.mesh = beam.mesh().description();
   if (modes_are_left_out(options, beam)) used.mesh += modal_description;
-  used.highest_frequency = beam.mesh().highest_frequency(beam.sections().stiffness());
+  used.highest_frequency = beam.highest_frequency();
   const ContactResonance resonance = contact_resonance(beam, problem.beam.height());
   used.largest_contact_slope = resonance.largest_slope;
   used.joined_frequency = resonance.highest_frequency;
@@ -149,7 +149,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.max_order = max_order_used(options);
   check_method(options, used, beam.sections().can_yield());
   check_contact_damping(problem, options, used);
-  check_tension(problem.beam, options);
+  check_modes(problem.beam, options);
   check_beam_damping(problem.beam.damping, options, beam.sections().can_yield());
   used.step = step_used(options, used);
   if (!used.step) {
@@ -210,8 +210,8 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
                             Coordinates coordinates) {
   std::shared_ptr<const BeamMesh> mesh = problem.mesh;
   SectionField sections = make_sections(problem);
-  if (coordinates == Coordinates::chosen && !sections.can_yield() && !problem.beam.stretches() &&
-      in_modes(options, *mesh, problem.beam.damping)) {
+  if (coordinates == Coordinates::chosen && !sections.can_yield() &&
+      problem.beam.has_natural_modes() && in_modes(options, *mesh, problem.beam.damping)) {
     mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
   }
   std::unique_ptr<MassSolver> solver = make_mass_solver(problem, *mesh);
@@ -223,7 +223,8 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
       problem.bodies().striker_velocity(), outer_stiffness(problem), std::move(solver),
       problem.contact_damping, problem.beam.damping, std::move(loads),
       std::max(problem.bodies().velocity_scale(), velocity_under_weight(problem)),
-      std::move(tension), problem.restitution_velocity});
+      std::move(tension), problem.restitution_velocity,
+      problem.beam.may_lift() ? &problem.beam : nullptr});
   set_start(problem, beam);
   return beam;
 }

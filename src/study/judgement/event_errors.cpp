@@ -66,7 +66,7 @@ void set_horizon(Reference& reference, std::size_t n, const std::string& reason)
 
 Reference compute_reference(const Case& input, double largest_error, const Progress& progress,
                             Jobs jobs) {
-  const bool in_modes = !may_yield(input) && !input.scene.beam.stretches();
+  const bool in_modes = !may_yield(input) && input.scene.beam.has_natural_modes();
   const char* first = in_modes ? "exponential" : "nystrom";
   const char* second = in_modes ? "nystrom" : "erk";
   Reference reference;

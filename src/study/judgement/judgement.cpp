@@ -17,7 +17,8 @@
 namespace subimpact {
 namespace {
 
-// Multiplies the errors of existence after an uncertain sub-impact of the same sub-zone.
+// Multiplies the errors of existence after an uncertain sub-impact of the same sub-zone, and after
+// a contact with a support that another mesh lacks.
 constexpr double after_uncertain = 1.5;
 constexpr double loosest_rtol = 1e-2;
 constexpr double alike = 0.025;  // velocities at the end, over that of the strike
@@ -81,8 +82,9 @@ void set_first_unresolved(ErrorEstimate::Part& part, std::size_t i, const Reason
   part.reason = reason;
 }
 
+// `support_lost`: of set_support_errors().
 ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const RunBeside> beside,
-                               ErrorEstimate& estimate) {
+                               ErrorEstimate& estimate, double support_lost = HUGE_VAL) {
   const Judge judge(input, run, beside);
   ErrorEstimate::Part part;
   part.source = beside.front().of.source;
@@ -92,6 +94,7 @@ ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const R
     SubImpact& s = run.sub_impacts[i];
     const SubImpact& before = run.sub_impacts[i > 0 ? i - 1 : 0];
     if (s.zone != before.zone || s.subzone != before.subzone) strictness = 1.0;
+    if (s.start > support_lost) strictness = after_uncertain;
     add_errors(judge, i, part.source, s);
     if (const auto doubt = judge.doubt_of(i, strictness)) {
       strictness = after_uncertain;
@@ -247,6 +250,7 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
     for (const auto error : errors) (s.*error).reset();
   }
   if (run.closest_approach) run.closest_approach->error.reset();
+  const double support_lost = set_support_errors(run, beside);
   for (auto first = beside.begin(); first != beside.end();) {
     const auto last = std::find_if(first, beside.end(), [&](const RunBeside& other) {
       return other.of.source != first->of.source;
@@ -254,7 +258,7 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
     if (!first->of.of_rows) {
       estimate.finer_meshes = finer_meshes(input, run, *first);
     } else {
-      estimate.parts.push_back(judge_part(input, run, {first, last}, estimate));
+      estimate.parts.push_back(judge_part(input, run, {first, last}, estimate, support_lost));
       if (first->of.source == ErrorSource::mesh) set_mesh_limits(input, run, {first, last});
     }
     first = last;

@@ -69,6 +69,30 @@ const Quantity quantities[] = {
 };
 // clang-format on
 
+// Of a contact with a support, over the largest: weaker ones change nothing that counts.
+constexpr double felt_force = 1e-3;
+
+// The contact of another run with the same support that overlaps most, if that is mutual.
+const SupportContact* partner_of(const SupportContact& here, const Result& run,
+                                 const Result& other) {
+  const auto end_of = [](const SupportContact& c) { return c.end.value_or(HUGE_VAL); };
+  const auto best = [&](const SupportContact& of, const std::vector<SupportContact>& all) {
+    const SupportContact* found = nullptr;
+    double most = 0.0;
+    for (const SupportContact& there : all) {
+      const double common =
+          std::min({end_of(of), end_of(there), run.outcome.time}) - std::max(of.start, there.start);
+      if (there.position != of.position || there.spring != of.spring || !(common > most)) continue;
+      most = common;
+      found = &there;
+    }
+    return found;
+  };
+  const SupportContact* there = best(here, other.support_contacts);
+  const bool is_mutual = there != nullptr && best(*there, run.support_contacts) == &here;
+  return is_mutual && there->end.has_value() == here.end.has_value() ? there : nullptr;
+}
+
 // Sums the errors of the parts, each the largest over its runs. `value`: of a run; none where the
 // run has no such thing.
 Total total_of(const Result& run, std::span<const RunBeside> beside,
@@ -260,6 +284,44 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
   Total count = sum_of_counts(estimate.zones);
   if (run.sub_impacts.empty() && estimate.first_unresolved) count.error = 1.0;
   estimate.totals.insert(estimate.totals.begin(), {RunTotal::sub_impacts, count});
+}
+
+double set_support_errors(Result& run, std::span<const RunBeside> beside) {
+  double lost = HUGE_VAL, largest = 0.0;
+  for (const SupportContact& here : run.support_contacts) {
+    largest = std::max(largest, here.peak_force);
+  }
+  const auto lose = [&](const SupportContact& contact) {
+    if (contact.peak_force > felt_force * largest) lost = std::min(lost, contact.start);
+  };
+  const auto shows_existence = [&](const Result& other) {
+    return std::ranges::any_of(
+        beside, [&](const RunBeside& one) { return &one.result == &other && one.of.of_existence; });
+  };
+  for (SupportContact& here : run.support_contacts) {
+    using Time = std::optional<double> (*)(const SupportContact&);
+    const auto error_of = [&](Time time) {
+      return total_of(run, beside, usual_safety,
+                      [&](const Result& other) -> std::optional<double> {
+                        if (&other == &run) return time(here);
+                        const SupportContact* there = partner_of(here, run, other);
+                        if (there == nullptr)
+                          return shows_existence(other) ? std::nullopt : time(here);
+                        return time(*there);
+                      })
+          .error;
+    };
+    here.start_error = error_of([](const SupportContact& c) { return std::optional(c.start); });
+    here.end_error = error_of([](const SupportContact& c) { return c.end; });
+    if (!here.start_error) lose(here);
+  }
+  for (const RunBeside& other : beside) {
+    if (!other.of.of_existence) continue;
+    for (const SupportContact& there : other.result.support_contacts) {
+      if (partner_of(there, other.result, run) == nullptr) lose(there);
+    }
+  }
+  return lost;
 }
 
 void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> beside) {

@@ -28,6 +28,11 @@ double largest_magnitude(const std::vector<Row>& rows, Value value) {
 void set_totals(const Case& input, const Result& run, std::span<const RunBeside> beside,
                 ErrorEstimate& estimate);
 
+/// Sets the errors of the times at which the beam touches and lifts off supports, as those of
+/// totals, where each run beside that counts for existence has such a contact. Returns since when
+/// (s) one of them, or the run, lacks one that the other has; infinite if none does.
+double set_support_errors(Result& run, std::span<const RunBeside> beside);
+
 /// The number of sub-impacts of a run, and its error, from those of its zones.
 Total sum_of_counts(const std::vector<ZoneTotals>& zones);
 

@@ -116,6 +116,23 @@ BodyVariant stretching_of(const Case& input) {
           base};
 }
 
+// Supports a tenth and ten times as stiff as those chosen for ends that rest.
+BodyVariant supports_of(const Case& input) {
+  BodyVariant variant{BodyPart::support};
+  for (const double factor : {0.1, 10.0}) {
+    variant.cases.push_back(with(input, [&](Scene& scene) {
+      Beam& beam = scene.beam;
+      for (const std::size_t end : {0, 1}) {
+        if (!std::exchange(beam.rests[end], false)) continue;
+        const double stiffness = factor * beam.rest_stiffness();
+        beam.springs.push_back({static_cast<double>(end), stiffness, OneSided{}});
+      }
+      beam.start = BeamStart::equilibrium;
+    }));
+  }
+  return variant;
+}
+
 // At rest under gravity where supports hold the beam.
 Case under_gravity(const Case& input) {
   return with(input, [](Scene& scene) {
@@ -159,6 +176,7 @@ std::vector<BodyVariant> body_variants(const Case& input, const GivenKeys& given
   }
   const bool is_held = std::ranges::count(beam.ends, EndSupport::free) == 0;
   if (bends && is_held) all.push_back(stretching_of(input));
+  if (beam.rests[0] || beam.rests[1]) all.push_back(supports_of(input));
   if (yields) {
     all.push_back({BodyPart::width, {input}});
     Case& wide = all.back().cases.front();

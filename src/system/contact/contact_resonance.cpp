@@ -110,8 +110,12 @@ ContactResonance contact_resonance(const StruckBeam& beam, double largest_indent
   const std::vector<double> difference = answer;
   bodies.solve_mass(answer);
   result.effective_mass = 1.0 / dot(difference.data(), answer.data(), answer.size());
-  const double beam_frequency = beam.mesh().highest_frequency(beam.sections().stiffness());
-  result.highest_frequency = std::max(beam_frequency, std::sqrt(largest_eigenvalue(bodies)));
+  // Supports that lift are no part of `bodies`; their stiffness adds at most the squares of theirs.
+  const double of_beam = beam.mesh().highest_frequency(beam.sections().stiffness());
+  const double with_supports = beam.highest_frequency();
+  const double of_supports = with_supports * with_supports - of_beam * of_beam;
+  result.highest_frequency =
+      std::max(with_supports, std::sqrt(largest_eigenvalue(bodies) + std::max(of_supports, 0.0)));
   result.contact_time =
       std::pow(result.effective_mass / (stiffness * std::pow(velocity, exponent - 1.0)),
                1.0 / (exponent + 1.0));

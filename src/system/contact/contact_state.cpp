@@ -6,7 +6,8 @@ namespace subimpact {
 
 std::string_view to_string(EventKind kind) {
   static constexpr std::string_view names[] = {
-      "contact_begins", "contact_yields", "contact_unloads", "contact_ends", "section_reverses"};
+      "contact_begins",   "contact_yields",  "contact_unloads", "contact_ends",
+      "section_reverses", "support_touches", "support_lifts"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -63,8 +64,7 @@ EventValue ContactState::event_function(const EventFunction& function, double in
       return {residual_indentation() - indentation, -rate};
     case EventKind::contact_yields:
       return {indentation - law_->yield_threshold(history_), rate};
-    case EventKind::contact_unloads:
-    case EventKind::section_reverses:
+    default:
       break;
   }
   assert(false && "an event of sections has no function of the indentation");
@@ -91,7 +91,7 @@ void ContactState::pass(const EventFunction& event, double indentation) {
     case EventKind::contact_ends:
       branch_ = ContactBranch::separated;
       break;
-    case EventKind::section_reverses:
+    default:
       assert(false && "sections pass their events in SectionField");
       break;
   }

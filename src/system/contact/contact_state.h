@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <utility>
@@ -28,6 +29,7 @@ enum class EventVariable {
 struct EventFunction {
   EventKind kind;
   EventVariable variable;
+  std::size_t contact = 0;  ///< whose: of the striker (0) or of a support that lifts
 
   constexpr EventFunction(EventKind kind)
       : EventFunction(kind, kind == EventKind::contact_unloads ? EventVariable::rate
@@ -60,6 +62,8 @@ class ContactState {
   ContactBranch branch() const { return branch_; }
   ContactHistory history() const { return history_; }
   bool is_closed() const { return branch_ != ContactBranch::separated; }
+  /// Whether force() may differ from zero.
+  bool exerts_force() const { return is_closed() || evaluation_ == Evaluation::switching; }
   double residual_indentation() const { return law_->residual_indentation(history_); }
 
   double force(double indentation) const;                ///< F_0, N: F without damping

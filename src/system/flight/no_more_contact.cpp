@@ -98,7 +98,8 @@ bool NoMoreContact::allow_loads(const StruckBeam& beam) {
 }
 
 bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
-  if (!can_prove_ || beam.contact().is_closed() || !allow_loads(beam)) return false;
+  if (!can_prove_ || !beam.supports().empty() || beam.contact().is_closed() || !allow_loads(beam))
+    return false;
   std::vector<double> w(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n_));
   const std::span<const double> v{y.data() + n_ + 1, n_};
   const Energies energies = accounts_.energies(y);

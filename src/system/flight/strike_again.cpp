@@ -20,6 +20,7 @@ constexpr double least_power = 1e-22;  // of the residual forces, relative to th
 constexpr double rounding = 1e-9;      // of the curvatures between which a section stays elastic
 // What K loses to rounding as a matrix is regained from the forces of the sections.
 constexpr int n_refinements = 3;
+constexpr int most_sets = 100;  // of supports on which a beam lies
 
 }  // namespace
 
@@ -83,11 +84,33 @@ std::optional<std::vector<double>> StruckBeam::equilibrium() const {
   return equilibrium(most > 0.0 ? root_in(excess, 0.0, most) : 0.0);
 }
 
+// The energy of a beam that lies on supports is convex: sets that follow from each other end at the
+// one that holds.
 std::optional<std::vector<double>> StruckBeam::equilibrium(double tension) const {
+  std::vector<bool> lies_on(supports_.size(), true);
+  for (int i = 0; i < most_sets; ++i) {
+    auto q = equilibrium(tension, lies_on);
+    if (!q) return std::nullopt;
+    std::vector<bool> next;
+    for (const LiftingSupport& support : supports_) next.push_back(support.indentation(*q) > 0.0);
+    if (next == lies_on) return q;
+    lies_on = std::move(next);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::vector<double>> StruckBeam::equilibrium(double tension,
+                                                           const std::vector<bool>& lies_on) const {
   std::vector<double> q(n_, 0.0), rest(n_), kappa(mesh_->n_sections());
   const double stiffness = sections_.stiffness();
-  BandedMatrix matrix(n_, mesh_->stiffness_bandwidth()), pull = matrix;
+  std::size_t bandwidth = mesh_->stiffness_bandwidth();
+  for (const auto& support : supports_) bandwidth = std::max(bandwidth, support.half_bandwidth());
+  BandedMatrix matrix(n_, bandwidth), pull = matrix;
   if (tension > 0.0) pull.add(tension, tension_->form());
+  for (std::size_t k = 0; k < supports_.size(); ++k) {
+    const double of_support = supports_[k].copies * supports_[k].stiffness();
+    if (lies_on[k]) supports_[k].approach.add_square(of_support, pull);
+  }
   mesh_->add_stiffness(std::vector<double>(mesh_->n_sections(), stiffness), matrix);
   matrix.add(1.0, pull);
   const auto factor = matrix.cholesky_factor();
@@ -97,6 +120,11 @@ std::optional<std::vector<double>> StruckBeam::equilibrium(double tension) const
     for (double& k : kappa) k *= stiffness;
     mesh_->internal_forces(q, kappa, rest);
     pull.subtract_product(q, rest);
+    for (std::size_t k = 0; k < supports_.size(); ++k) {
+      const LiftingSupport& support = supports_[k];
+      const double reach = support.copies * support.stiffness() * support.gap;
+      if (lies_on[k]) support.approach.add_to(rest, reach);
+    }
     loads_.add_to(rest, loads_.start());
     factor->solve_as_factor(rest);
     for (std::size_t k = 0; k < n_; ++k) q[k] += rest[k];

@@ -29,6 +29,10 @@ Energies Accounts::energies(const State& y, double t) {
       sum.bending_plastic += axial.plastic;
     }
   }
+  for (const LiftingSupport& support : beam_.supports()) {
+    const double depth = support.indentation(beam_.beam_positions(y));
+    sum.bending_elastic += support.copies * support.contact.energies(depth).elastic;
+  }
   const ContactState::Energies contact = beam_.contact().energies(beam_.indentation(y));
   sum.contact_elastic = contact.elastic;
   sum.contact_plastic = contact.plastic + beam_.losses().contact;
@@ -46,6 +50,9 @@ double Accounts::momentum(const State& y, double t) const {
 
 double Accounts::beam_impulse(const State& y, double t) const {
   double sum = beam_momentum(y);
+  for (const LiftingSupport& support : beam_.supports()) {
+    sum += support.sense * support.copies * support.impulse;
+  }
   if (!beam_.loads().is_empty()) sum -= beam_.loads().impulse(t);
   const double alpha = beam_.damping().mass;
   if (alpha == 0.0) return sum;

@@ -28,8 +28,8 @@ class Accounts {
   /// Energies at a time (s), which matters only if loads change.
   Energies energies(const State& y, double t = 0.0);
   /// kg m/s, of beam and striker, without the impulse of gravity and loads since t = 0, and with
-  /// what the damping by mass has taken since then: alpha times the integral of the beam's
-  /// momentum.
+  /// what supports that lift and the damping by mass have taken since then: alpha times the
+  /// integral of the beam's momentum.
   double momentum(const State& y, double t = 0.0) const;
   double beam_momentum(const State& y) const;  ///< kg m/s
   /// N s, up to a constant: the impulse of the contact force on a beam without supports or springs,

@@ -15,7 +15,13 @@ SupportReactions::SupportReactions(const StruckBeam& beam, double length, double
     return support && *support != EndSupport::free;
   };
   held_ = {is_held(0.0), is_held(end)};
-  if (!exist()) return;
+  for (const LiftingSupport& support : beam.supports()) {
+    if (support.position == 0.0) lies_on_[0] = true;
+    if (support.position == length || (support.position == 0.0 && mesh.symmetric())) {
+      lies_on_[1] = true;
+    }
+  }
+  if (!SupportReactions::is_held()) return;
   momentum_ = eliminated(mesh.momentum_functional());
   add_damping(momentum_);
   if (mesh.moment_functional().empty()) return;
@@ -32,6 +38,9 @@ SupportReactions::Eliminated SupportReactions::eliminated(
   beam_.mass_solver().solve(g);
   Eliminated result;
   result.of_force = mesh.struck_point()(g);
+  for (const LiftingSupport& support : beam_.supports()) {
+    result.of_supports.push_back(-support.copies * support.approach(g));
+  }
   if (!beam_.loads().is_empty()) result.of_loads = g;
   if (in_modes()) {
     for (std::size_t k = 0; k < g.size(); ++k) {
@@ -109,10 +118,30 @@ double SupportReactions::value(const Eliminated& of, double t, const State& y,
     const auto unknowns = beam_.beam_positions(y);
     value -= beam_.tension()->at(unknowns) * sum(of.of_tension, unknowns);
   }
+  for (std::size_t j = 0; j < of.of_supports.size(); ++j) {
+    value += of.of_supports[j] * beam_.support_force(j, y);
+  }
   return value + sum(of.of_velocities, beam_.beam_velocities(y));
 }
 
+SupportReactions::Forces SupportReactions::on_supports(const State& y) const {
+  std::array<double, 2> sums{};
+  for (std::size_t j = 0; j < beam_.supports().size(); ++j) {
+    const LiftingSupport& support = beam_.supports()[j];
+    const double force = -support.sense * beam_.support_force(j, y);
+    if (support.position == 0.0) sums[0] += force;
+    if (support.position == length_) sums[1] += force;
+  }
+  if (beam_.mesh().symmetric()) sums[1] = sums[0];
+  const auto of_end = [&](std::size_t end) {
+    return lies_on_[end] ? std::optional(sums[end]) : std::nullopt;
+  };
+  return {of_end(0), of_end(1)};
+}
+
 SupportReactions::Forces SupportReactions::at(double t, const State& y, Accounts& accounts) const {
+  const Forces lies_on = on_supports(y);
+  if (!is_held()) return lies_on;
   const double force = beam_.contact_force(y);
   // The resultant of loads, springs and bedding.
   const std::span<const double> unknowns = beam_.beam_positions(y);
@@ -120,14 +149,20 @@ SupportReactions::Forces SupportReactions::at(double t, const State& y, Accounts
     return std::inner_product(functional.begin(), functional.end(), unknowns.begin(), 0.0);
   };
   const auto [load, load_moment] = beam_.loads().resultant(t);
-  const double others = load - of_ground(beam_.mesh().ground_force());
-  const double other_moments = load_moment - of_ground(beam_.mesh().ground_moment());
+  double others = load - of_ground(beam_.mesh().ground_force());
+  double other_moments = load_moment - of_ground(beam_.mesh().ground_moment());
+  for (std::size_t j = 0; j < beam_.supports().size(); ++j) {
+    const LiftingSupport& support = beam_.supports()[j];
+    const double push = support.sense * support.copies * beam_.support_force(j, y);
+    others -= push;
+    other_moments -= push * support.position;
+  }
   std::span<const double> moments;
   if (!in_modes()) moments = accounts.bending(y).moments;
   const double sum = value(momentum_, t, y, moments) - force - others;
   if (beam_.mesh().symmetric()) return {0.5 * sum, 0.5 * sum};
-  if (!held_[1]) return {sum, std::nullopt};
-  if (!held_[0]) return {std::nullopt, sum};
+  if (!held_[1]) return {sum, lies_on[1]};
+  if (!held_[0]) return {lies_on[0], sum};
   if (!moment_) return {};
   const double moment = value(*moment_, t, y, moments) - force * struck_at_ - other_moments;
   const double last = moment / length_;

@@ -16,8 +16,8 @@ class SupportReactions {
   /// `struck_at`: x_s, m. `beam` must outlive this.
   SupportReactions(const StruckBeam& beam, double length, double struck_at);
 
-  /// Whether any end is held, on a mesh that gives displacements at the ends.
-  bool exist() const { return held_[0] || held_[1]; }
+  /// Whether any end is held, on a mesh that gives displacements at the ends, or lies on a support.
+  bool exist() const { return is_held() || lies_on_[0] || lies_on_[1]; }
 
   /// At time t (s), x = 0 and x = l; none at a free end, or without a moment functional to
   /// distinguish the two.
@@ -32,6 +32,7 @@ class SupportReactions {
     std::vector<double> of_velocities;  // -C g; none without damping inside the beam
     std::vector<double> of_loads;       // g
     std::vector<double> of_tension;     // G g; none without tension
+    std::vector<double> of_supports;    // -a_j.g of each copy of those that lift
     double of_force = 0.0;              // S.g
   };
   Eliminated eliminated(std::span<const double> functional) const;
@@ -40,11 +41,14 @@ class SupportReactions {
   // Adds sign times the moment at a clamped end.
   void add_end_moment(double sign, double x, bool first, Eliminated& to) const;
   void add_damping(Eliminated& to) const;
+  bool is_held() const { return held_[0] || held_[1]; }
+  // Of supports that lift, at x = 0 and x = l.
+  Forces on_supports(const State& y) const;
   bool in_modes() const { return !beam_.modal_stiffness().empty(); }
 
   const StruckBeam& beam_;
   double length_, struck_at_;
-  std::array<bool, 2> held_{};
+  std::array<bool, 2> held_{}, lies_on_{};
   Eliminated momentum_;
   std::optional<Eliminated> moment_;  // d.w'' + M(0) - M(l)
 };

@@ -135,6 +135,14 @@ void SectionCorrector::read_loads(double t, const State& y, const SectionMotion&
     tension->add_rate_to(loads.shear_force_rates, beam_.beam_positions(y),
                          beam_.beam_velocities(y));
   }
+  for (std::size_t i = 1; i < beam_.n_contacts(); ++i) {
+    const LiftingSupport& support = beam_.supports()[i - 1];
+    if (!support.contact.is_closed()) continue;
+    const double depth = beam_.indentation(y, i), rate = beam_.indentation_rate(y, i);
+    support.approach.add_to(loads.shear_forces, -support.copies * support.contact.force(depth));
+    support.approach.add_to(loads.shear_force_rates,
+                            -support.copies * support.contact.slope(depth) * rate);
+  }
   if (beam_.loads().is_empty()) return;
   beam_.loads().add_to(loads.shear_forces, t);
   for (std::size_t i = 0; i < loads.shear_force_rates.size(); ++i) {

@@ -66,6 +66,7 @@ class Motion {
       drawLoads(axes, strike, points, thick, time);
     });
     this.drawSupports(axes, points, thick);  // beyond the axes, to be seen whole
+    drawRollers(axes, strike, thick, time, origin);
   }
 
   // Sections that have yielded, the stronger the larger their plastic curvature.

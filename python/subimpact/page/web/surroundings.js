@@ -12,7 +12,8 @@ function heightAt(points, x) {
 }
 
 function drawGround(axes, strike, points, thick) {
-  if (strike.springs.length === 0 && !strike.bedding) return;
+  const springs = strike.springs.filter((spring) => !spring.one_sided);
+  if (springs.length === 0 && !strike.bedding) return;
   const ground = axes.bottom - 6;
   axes.line([[axes.left, ground], [axes.right, ground]], {colour: colour('soft'), width: 3});
   const spring = (x, wide) => {
@@ -20,9 +21,27 @@ function drawGround(axes, strike, points, thick) {
     const zigzag = Array.from({length: 9}, (_, i) => [x + (i % 2 ? wide : -wide), top + (ground - top) * (i + 0.5) / 9]);
     axes.line([[x, top], ...zigzag, [x, ground]], {colour: colour('soft'), width: 1.5});
   };
-  for (const position of strike.springs) spring(axes.toX(position), 6);
+  for (const {position} of springs) spring(axes.toX(position), 6);
   if (!strike.bedding) return;
   for (let i = 0; i < 24; ++i) spring(axes.left + (i + 0.5) / 24 * (axes.right - axes.left), 2);
+}
+
+// Supports that the beam can lift off, as rollers: filled where it lies on them.
+function drawRollers(axes, strike, thick, time, origin) {
+  const {draw} = axes;
+  const radius = 7;
+  for (const {position, one_sided: isLoose, gap, side} of strike.springs) {
+    if (!isLoose) continue;
+    const touched = strike.supports.some((one) => one.position === position && one.start <= time && time <= one.end);
+    const x = axes.toX(position), y = axes.toY(1e3 * (side * gap - origin)) + side * (0.5 * thick + radius);
+    draw.fillStyle = draw.strokeStyle = colour('soft');
+    draw.lineWidth = 2;
+    draw.beginPath();
+    draw.arc(x, y, radius - 1, 0, 2 * Math.PI);
+    if (touched) draw.fill();
+    draw.stroke();
+    draw.fillRect(x - 12, side > 0 ? y + radius : y - radius - 3, 24, 3);
+  }
 }
 
 // Arrows that end at the beam, on the side from which a force pushes, as long as it is strong.

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "subimpact/case/case.h"
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// What a beam does on supports that it can lift off, one label and its words for each: "support at
+/// 0", "lifts at 142.1 +- 0.1 us, back at 1310 us; 3 times". Contacts of less than a thousandth of
+/// the largest force of all supports are left out; empty without such supports.
+std::vector<std::pair<std::string, std::string>> support_words(const Case& input,
+                                                               const Result& result);
+
+}  // namespace subimpact

@@ -1,0 +1,345 @@
+// Supports that only push: closed forms of rigid bars, symmetry, methods, balances, refusals.
+
+#include <Eigen/Dense>
+
+#include "paper_case.h"
+#include "settings.h"
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double k_contact = 2e6, k_support = 3e6;
+
+Case bar_case() {
+  Case input = paper_run(SectionKind::elastic, 0.0, 501, Method::nystrom);
+  input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
+  input.scene.contact.kind = ContactKind::linear;
+  input.scene.contact.stiffness = k_contact;
+  input.scene.striker.nose_radius.reset();
+  input.model.mesh = MeshKind::rigid;
+  input.solver.rtol = 1e-13;
+  return input;
+}
+
+Spring support(double position, double gap = 0.0, double stiffness = k_support) {
+  return {position, stiffness, OneSided{gap}};
+}
+
+struct Spell {
+  int contact;  // 0: the striker's
+  double start, end;
+};
+
+// A rigid bar on springs that only push, struck by a mass: linear while the same contacts are
+// closed, so that states follow by the exponential of a matrix.
+class RigidBar {
+ public:
+  explicit RigidBar(const Case& input) : input_(input) {
+    const Beam& beam = input.scene.beam;
+    inertias_ << beam.mass(),
+        beam.mass() * beam.length * beam.length / 12.0 + beam.rotary_inertia() * beam.length,
+        input.scene.striker.mass;
+    const double arm = (input.scene.striker.position - 0.5) * beam.length;
+    contacts_.push_back({{-1.0, -arm, 1.0}, *input.scene.contact.stiffness, 0.0});
+    for (const Spring& spring : beam.springs) {
+      contacts_.push_back({{1.0, (spring.position - 0.5) * beam.length, 0.0},
+                           spring.stiffness,
+                           spring.one_sided->gap});
+    }
+  }
+
+  std::vector<Spell> spells(double end) {
+    State y = State::Zero();
+    y[5] = input_.scene.striker.velocity;
+    y[6] = 1.0;
+    std::vector<bool> closed(contacts_.size(), false);
+    std::vector<Spell> all, open(contacts_.size());
+    double t = 0.0;
+    const auto toggle = [&](std::size_t i) {
+      if (closed[i]) all.push_back({static_cast<int>(i), open[i].start, t});
+      open[i].start = t;
+      closed[i] = !closed[i];
+    };
+    toggle(0);
+    for (std::size_t i = 1; i < contacts_.size(); ++i) {  // by the first motion, as t^3
+      const double first = contacts_[i].at.dot(-contacts_[0].at.cwiseQuotient(inertias_));
+      if (contacts_[i].gap == 0.0 && first > 0.0) toggle(i);
+    }
+    constexpr double step = 1e-6, least = 1e-17;
+    while (t < end) {
+      const Matrix rate = rate_of(closed);
+      const State next = (rate * step).exp() * y;
+      std::optional<std::size_t> found;
+      double when = step;
+      for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        const double sign = closed[i] ? -1.0 : 1.0;
+        if (!(sign * depth(i, next) > least)) continue;
+        const double at = root_in([&](double h) { return depth(i, (rate * h).exp() * y); },
+                                  t == open[i].start ? 1e-3 * step : 0.0, step);
+        if (at < when) {
+          when = at;
+          found = i;
+        }
+      }
+      y = (rate * when).exp() * y;
+      t += when;
+      if (found) toggle(*found);
+    }
+    return all;
+  }
+
+ private:
+  using Vector = Eigen::Vector3d;
+  using State = Eigen::Matrix<double, 7, 1>;  // q, v, 1
+  using Matrix = Eigen::Matrix<double, 7, 7>;
+  struct Contact {
+    Vector at;
+    double stiffness, gap;
+  };
+
+  struct Exponential {
+    Matrix of;
+    Matrix exp() const {  // by its series: the steps are short
+      Matrix sum = Matrix::Identity(), term = sum;
+      for (int k = 1; k < 24; ++k) sum += term = Matrix(term * of) / k;
+      return sum;
+    }
+  };
+  struct Rate {
+    Matrix matrix;
+    Exponential operator*(double h) const { return {matrix * h}; }
+  };
+  double depth(std::size_t i, const State& y) const {
+    return contacts_[i].at.dot(y.head<3>()) - contacts_[i].gap;
+  }
+  Rate rate_of(const std::vector<bool>& closed) const {
+    Matrix rate = Matrix::Zero();
+    rate.block<3, 3>(0, 3).setIdentity();
+    const double g = input_.scene.gravity;
+    rate(3, 6) = rate(5, 6) = g;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (!closed[i]) continue;
+      const Contact& c = contacts_[i];
+      const Vector push = -c.stiffness * c.at.cwiseQuotient(inertias_);
+      rate.block<3, 3>(3, 0) += push * c.at.transpose();
+      rate.block<3, 1>(3, 6) -= push * c.gap;
+    }
+    return {rate};
+  }
+
+  const Case& input_;
+  Vector inertias_;
+  std::vector<Contact> contacts_;
+};
+
+std::vector<Spell> spells_of(const Result& result) {
+  std::vector<Spell> all;
+  for (const SubImpact& s : result.sub_impacts) {
+    if (s.end) all.push_back({0, s.start, *s.end});
+  }
+  for (const SupportContact& c : result.support_contacts) {
+    if (c.end) all.push_back({static_cast<int>(c.spring) + 1, c.start, *c.end});
+  }
+  std::ranges::sort(all, {}, [](const Spell& s) { return std::tuple(s.start, s.contact, s.end); });
+  return all;
+}
+
+void expect_same(const Result& result, std::vector<Spell> expected, double tolerance) {
+  std::ranges::sort(expected, {}, [](const Spell& s) { return std::tuple(s.start, s.contact); });
+  const std::vector<Spell> found = spells_of(result);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].contact, expected[i].contact) << i;
+    EXPECT_NEAR(found[i].start, expected[i].start, tolerance) << i;
+    EXPECT_NEAR(found[i].end, expected[i].end, tolerance) << i;
+  }
+}
+
+class ABarByAMethod : public testing::TestWithParam<Method> {};
+
+INSTANTIATE_TEST_SUITE_P(, ABarByAMethod,
+                         testing::Values(Method::erk, Method::nystrom, Method::dirk, Method::adams,
+                                         Method::bdf),
+                         NamedAsPrinted{});
+
+TEST_P(ABarByAMethod, LiftsOffOneOrTwoSpringsWhenItsClosedFormDoes) {
+  for (const EventHandling events : {EventHandling::located, EventHandling::library}) {
+    if (events == EventHandling::library && GetParam() == Method::nystrom) continue;
+    for (const double struck : {0.5, 0.6, 1.0}) {
+      for (const bool two : {true, false}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", struck, two, static_cast<int>(events)));
+        Case input = bar_case();
+        input.solver.method = GetParam();
+        input.solver.rtol = GetParam() == Method::dirk ? 1e-11 : 1e-13;
+        input.solver.events = events;
+        input.scene.striker.position = struck;
+        input.scene.beam.springs = {support(1.0)};
+        if (two) input.scene.beam.springs.push_back(support(0.0));
+        input.end_time = 4e-3;
+        const Result result = completed(input);
+        const double period = 2.0 * M_PI * std::sqrt(input.scene.striker.mass / k_contact);
+        expect_same(result, RigidBar(input).spells(input.end_time), 1e-9 * period);
+        EXPECT_LT(result.max_energy_error, 1e-8);
+        EXPECT_LT(result.max_momentum_error.value(), 1e-8);
+      }
+    }
+  }
+}
+
+TEST(ABarStruckAtAnEnd, LiftsItsFarEndAtOnceByHalfOfWhatTheNearOneGivesWay) {
+  Case input = bar_case();
+  input.scene.striker.position = 1.0;
+  input.scene.beam.springs = {support(0.0), support(1.0)};
+  input.scene.beam.theory = BeamTheory::euler_bernoulli;
+  input.output.points = {0.0, 1.0};
+  input.output.interval = 1e-5;
+  input.end_time = 2e-4;
+  const Result result = completed(input);
+  for (const SupportContact& contact : result.support_contacts) EXPECT_EQ(contact.spring, 1u);
+  for (std::size_t i = 2; i + 1 < result.point_history.size(); i += 2) {
+    const double near = result.point_history[i + 1].displacement;
+    EXPECT_NEAR(result.point_history[i].displacement, -0.5 * near, 1e-12 * near + 1e-15);
+  }
+}
+
+TEST(ABarDroppedOnOneSpring, BouncesAsAMassOnAPlane) {
+  Case input = bar_case();
+  const double gap = 2e-3, g = 9.81;
+  input.scene.gravity = g;
+  input.scene.striker.gap = 10.0;
+  input.scene.beam.springs = {support(0.5, gap)};
+  const double first = std::sqrt(2.0 * gap / g), v = g * first;
+  const double w = std::sqrt(k_support / input.scene.beam.mass());
+  const double lasts = 2.0 * (M_PI - std::atan(v * w / g)) / w;
+  input.end_time = 2.5 * (first + lasts);
+  const Result result = completed(input);
+  ASSERT_EQ(result.support_contacts.size(), 1u);
+  const SupportContact& contact = result.support_contacts[0];
+  EXPECT_NEAR(contact.start, first, 1e-9 * first);
+  EXPECT_NEAR(*contact.end - first, lasts, 1e-9 * lasts);
+  const double mass = input.scene.beam.mass();
+  EXPECT_NEAR(contact.impulse, mass * (2.0 * v + g * lasts), 1e-8 * mass * v);
+  const double deepest = g / (w * w) + std::hypot(g / (w * w), v / w);
+  EXPECT_NEAR(contact.peak_force, k_support * deepest, 1e-6 * k_support * deepest);
+}
+
+TEST(ABarThatRests, SharesItsWeightAndALoadAmongItsSupports) {
+  Case input = bar_case();
+  Beam& beam = input.scene.beam;
+  beam.rests = {true, true};
+  beam.forces = {{0.3, {{0.0, 50.0}}}};
+  input.scene.gravity = 9.81;
+  input.output.interval = 1e-6;
+  input.end_time = 1e-5;
+  for (const MeshKind mesh : {MeshKind::rigid, MeshKind::hermite, MeshKind::cells}) {
+    input.model.mesh = mesh;
+    const Result result = completed(input);
+    const double weight = beam.mass() * 9.81;
+    EXPECT_NEAR(result.history.front().first_reaction.value(), -(0.5 * weight + 0.7 * 50.0), 1e-7);
+    EXPECT_NEAR(result.history.front().last_reaction.value(), -(0.5 * weight + 0.3 * 50.0), 1e-7);
+  }
+}
+
+Case elastic_bar() {
+  Case input = bar_case();
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 20;
+  input.scene.beam.springs = {support(0.0, 0.0, 2e7), support(1.0, 0.0, 2e7),
+                              support(0.5, 2e-4, 5e6)};
+  input.solver.rtol = 1e-11;
+  input.end_time = 4e-3;
+  return input;
+}
+
+std::vector<SupportContact> felt(const Result& result) {
+  std::vector<SupportContact> all = result.support_contacts;
+  std::erase_if(all, [](const SupportContact& c) { return c.peak_force < 1.0; });
+  return all;
+}
+
+void expect_alike(const Result& result, const Result& other, double tolerance) {
+  const auto here = felt(result), there = felt(other);
+  ASSERT_EQ(here.size(), there.size());
+  ASSERT_EQ(result.sub_impacts.size(), other.sub_impacts.size());
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    EXPECT_EQ(here[i].position, there[i].position);
+    EXPECT_NEAR(here[i].start, there[i].start, tolerance) << i;
+    EXPECT_NEAR(here[i].end.value_or(0.0), there[i].end.value_or(0.0), tolerance) << i;
+    EXPECT_NEAR(here[i].peak_force, there[i].peak_force, 1e-4 * here[i].peak_force) << i;
+  }
+}
+
+TEST(ABeamOnSupports, FoldedAboutItsMiddleMovesAsTheWhole) {
+  Case input = elastic_bar();
+  const Result half = completed(input);
+  EXPECT_TRUE(half.used.half_model);
+  input.model.symmetry = SymmetryUse::off;
+  const Result whole = completed(input);
+  EXPECT_FALSE(whole.used.half_model);
+  expect_alike(half, whole, 1e-10);
+  EXPECT_GE(felt(half).size(), 6u);
+}
+
+TEST(ABeamOnSupports, HasTheSameEventsByEveryMethod) {
+  Case input = elastic_bar();
+  const Result result = completed(input);
+  EXPECT_LT(result.max_energy_error, 1e-7);
+  EXPECT_LT(result.max_momentum_error.value(), 1e-6);
+  for (const Method method : {Method::erk, Method::dirk, Method::adams, Method::bdf}) {
+    SCOPED_TRACE(std::string(to_string(method)));
+    input.solver.method = method;
+    expect_alike(completed(input), result, 1e-8);
+  }
+  input.solver.method = Method::central_difference;
+  input.solver.rtol = 1e-9;
+  input.solver.step = 5e-9;
+  expect_alike(completed(input), result, 2e-8);
+}
+
+TEST(ABeamOnSupports, YieldsWithThemAsWithPinsWhereTheyHold) {
+  Case input = paper_run(SectionKind::exact, 3e-4, 201, Method::nystrom);
+  input.scene.beam.springs = {support(0.0, 0.0, 5e7), support(1.0, 0.0, 5e7)};
+  input.solver.rtol = 1e-10;
+  const Result result = completed(input);
+  EXPECT_GT(result.n_yielded_sections, 0u);
+  input.solver.method = Method::erk;
+  expect_alike(completed(input), result, 1e-9);
+}
+
+TEST(ADampedSupport, TakesTheEnergyThatTheRunAccountsFor) {
+  Case input = elastic_bar();
+  for (Spring& spring : input.scene.beam.springs) spring.one_sided->damping = 0.3;
+  input.solver.method = Method::erk;
+  const Result result = completed(input);
+  EXPECT_GT(result.beam_damping_loss, 1e-3 * result.used.initial_energy);
+  EXPECT_LT(result.max_energy_error, 1e-6);
+  input.solver.method = Method::bdf;
+  expect_alike(completed(input), result, 1e-7);
+}
+
+TEST(ABeamOnSupports, ThatCannotBeIsRefusedWithItsReason) {
+  const KeyValue rests = Names{"rests", "rests"};
+  const std::tuple<const char*, const char*, Settings> refused[] = {
+      {"beam.ends", "no load presses", {{"beam.ends", rests}}},
+      {"beam.start", "nothing holds",
+       {{"beam.ends", Names{"rests", "free"}}, {"scene.gravity", 9.81}}},
+      {"beam.start", "lifts off the supports", {{"beam.ends", rests}, {"beam.load", -1e3},
+                                                {"scene.gravity", 1e3}}},
+      {"solver.method", "natural modes",
+       {{"beam.ends", rests}, {"scene.gravity", 9.81}, {"solver.method", "exponential"}}},
+      {"beam.damping.ratio", "natural modes",
+       {{"beam.ends", rests}, {"scene.gravity", 9.81}, {"beam.damping.ratio", 0.01},
+        {"solver.method", "erk"}}},
+  };
+  for (const auto& [key, words, settings] : refused) {
+    SCOPED_TRACE(words);
+    Case input = elastic_bar();
+    input.scene.beam.springs.clear();
+    input.end_time = 1e-3;
+    expect_refused(changed(input, settings), key, words);
+  }
+}
+
+}  // namespace
+}  // namespace subimpact
