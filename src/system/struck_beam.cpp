@@ -45,8 +45,18 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
 }
 
 void StruckBeam::settle_on_supports(const State& y) {
+  if (supports_.empty()) return;
+  std::vector<double> under_loads(n_ + 1), struck(n_, 0.0);
+  acceleration_at(y, under_loads);
+  mesh_->struck_point().add_to(struck, 1.0);
+  mass_solver_->solve(struck);
   for (LiftingSupport& support : supports_) {
-    support.contact.follow(support.indentation(beam_positions(y)));
+    const double depth = support.indentation(beam_positions(y));
+    const double of_loads = support.approach({under_loads.data(), n_});
+    const bool is_still = depth == 0.0 && support.approach(beam_velocities(y)) == 0.0;
+    support.contact.follow(!is_still         ? depth
+                           : of_loads != 0.0 ? of_loads
+                                             : support.approach(struck));
   }
 }
 

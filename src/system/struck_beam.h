@@ -114,7 +114,9 @@ class StruckBeam final : public MechanicalSystem {
   double support_force(std::size_t j, std::span<const double> y) const {
     return supports_[j].contact.force(indentation(y, j + 1), indentation_rate(y, j + 1));
   }
-  /// Puts the supports on the branch on which they lie at y.
+  /// Puts the supports on the branch on which they lie at y, at the start; one that touches without
+  /// force or motion on that of the first motion, under loads or else under a growing contact
+  /// force.
   void settle_on_supports(const State& y);
   /// Impulses (N s) since the last call, one per support.
   void add_support_impulses(std::span<const double> impulses, double sign = 1.0) {

@@ -24,7 +24,8 @@ std::string words_of(const std::vector<SupportContact>& contacts, const Result& 
   std::string words;
   if (first.start > 0.0) words = "touches at " + time(first.start, first.start_error);
   if (!first.end) return words.empty() ? "the beam never lifts off" : words + ", and stays";
-  words += fmt::format("{}lifts at {}", words.empty() ? "" : ", ", time(*first.end, first.end_error));
+  words +=
+      fmt::format("{}lifts at {}", words.empty() ? "" : ", ", time(*first.end, first.end_error));
   if (contacts.size() > 1) {
     words += ", back at " + time(contacts[1].start, contacts[1].start_error);
   }
@@ -53,9 +54,10 @@ std::vector<std::pair<std::string, std::string>> support_words(const Case& input
         contacts.push_back(contact);
       }
     }
-    lines.emplace_back(fmt::format("{} at {:.4g} m", spring.one_sided->gap > 0.0 ? "stop" : "support",
-                                   spring.position * beam.length),
-                       words_of(contacts, result));
+    lines.emplace_back(
+        fmt::format("{} at {:.4g} m", spring.one_sided->gap > 0.0 ? "stop" : "support",
+                    spring.position * beam.length),
+        words_of(contacts, result));
   }
   return lines;
 }

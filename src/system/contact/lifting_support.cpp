@@ -16,7 +16,8 @@ constexpr double dead_share = 1e-12;
 }  // namespace
 
 std::size_t LiftingSupport::half_bandwidth() const {
-  const auto [low, high] = std::ranges::minmax(approach.terms, {}, &SparseFunctional::Term::unknown);
+  const auto [low, high] =
+      std::ranges::minmax(approach.terms, {}, &SparseFunctional::Term::unknown);
   return high.unknown - low.unknown;
 }
 
@@ -36,11 +37,11 @@ std::vector<LiftingSupport> lifting_supports(const BeamMesh& mesh, const Beam& b
     SparseFunctional approach;
     approach.add(sense, *at);
     constexpr double never = std::numeric_limits<double>::infinity();
-    all.push_back({i, x, sense, one_sided->gap, mesh.symmetric() && position < 0.5 ? 2.0 : 1.0,
-                   std::move(approach),
-                   ContactState(std::make_shared<PowerContact>(stiffness, 1.0, never),
-                                one_sided->damping),
-                   dead_share * length_scale});
+    all.push_back(
+        {i, x, sense, one_sided->gap, mesh.symmetric() && position < 0.5 ? 2.0 : 1.0,
+         std::move(approach),
+         ContactState(std::make_shared<PowerContact>(stiffness, 1.0, never), one_sided->damping),
+         dead_share * length_scale});
   }
   return all;
 }

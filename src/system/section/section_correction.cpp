@@ -20,6 +20,10 @@ constexpr double coupling_left = 0.03;
 // before that by rounding, the next one too.
 constexpr double shortest_cut = 1e-3;
 
+bool has_other_forces(const StruckBeam& beam) {
+  return !beam.loads().is_empty() || beam.tension() != nullptr || !beam.supports().empty();
+}
+
 #ifndef NDEBUG
 bool is_committed(const StruckBeam& beam, const State& y) {
   const std::size_t section = beam.mesh().struck_section();
@@ -57,8 +61,8 @@ SectionCorrector::SectionCorrector(const StruckBeam& beam, double tolerance)
       influence_(beam.mesh(), beam.mass_solver()),
       finder_(beam.sections(), influence_),
       end_(beam.sections().size()),
-      start_loads_(beam.mesh(), !beam.loads().is_empty() || beam.tension() != nullptr),
-      end_loads_(beam.mesh(), !beam.loads().is_empty() || beam.tension() != nullptr),
+      start_loads_(beam.mesh(), has_other_forces(beam)),
+      end_loads_(beam.mesh(), has_other_forces(beam)),
       curvatures_(beam.sections().size()),
       moments_(beam.sections().size()),
       forces_(beam.mesh().n_unknowns()) {}

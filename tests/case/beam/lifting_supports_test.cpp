@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "numerics/bracketed_root.h"
 #include "paper_case.h"
 #include "settings.h"
 #include "subimpact/case/case_keys.h"
@@ -69,20 +70,20 @@ class RigidBar {
     constexpr double step = 1e-6, least = 1e-17;
     while (t < end) {
       const Matrix rate = rate_of(closed);
-      const State next = (rate * step).exp() * y;
+      const State next = after(step, rate, y);
       std::optional<std::size_t> found;
       double when = step;
       for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const double sign = closed[i] ? -1.0 : 1.0;
         if (!(sign * depth(i, next) > least)) continue;
-        const double at = root_in([&](double h) { return depth(i, (rate * h).exp() * y); },
+        const double at = root_in([&](double h) { return depth(i, after(h, rate, y)); },
                                   t == open[i].start ? 1e-3 * step : 0.0, step);
         if (at < when) {
           when = at;
           found = i;
         }
       }
-      y = (rate * when).exp() * y;
+      y = after(when, rate, y);
       t += when;
       if (found) toggle(*found);
     }
@@ -98,22 +99,16 @@ class RigidBar {
     double stiffness, gap;
   };
 
-  struct Exponential {
-    Matrix of;
-    Matrix exp() const {  // by its series: the steps are short
-      Matrix sum = Matrix::Identity(), term = sum;
-      for (int k = 1; k < 24; ++k) sum += term = Matrix(term * of) / k;
-      return sum;
-    }
-  };
-  struct Rate {
-    Matrix matrix;
-    Exponential operator*(double h) const { return {matrix * h}; }
-  };
+  // y after h seconds, by the series of the exponential: steps are short.
+  static State after(double h, const Matrix& rate, const State& y) {
+    State sum = y, term = y;
+    for (int k = 1; k < 24; ++k) sum += term = State(rate * term) * h / k;
+    return sum;
+  }
   double depth(std::size_t i, const State& y) const {
     return contacts_[i].at.dot(y.head<3>()) - contacts_[i].gap;
   }
-  Rate rate_of(const std::vector<bool>& closed) const {
+  Matrix rate_of(const std::vector<bool>& closed) const {
     Matrix rate = Matrix::Zero();
     rate.block<3, 3>(0, 3).setIdentity();
     const double g = input_.scene.gravity;
@@ -125,7 +120,7 @@ class RigidBar {
       rate.block<3, 3>(3, 0) += push * c.at.transpose();
       rate.block<3, 1>(3, 6) -= push * c.gap;
     }
-    return {rate};
+    return rate;
   }
 
   const Case& input_;
@@ -248,7 +243,7 @@ Case elastic_bar() {
   input.scene.beam.springs = {support(0.0, 0.0, 2e7), support(1.0, 0.0, 2e7),
                               support(0.5, 2e-4, 5e6)};
   input.solver.rtol = 1e-11;
-  input.end_time = 4e-3;
+  input.end_time = 1.5e-3;
   return input;
 }
 
@@ -278,7 +273,7 @@ TEST(ABeamOnSupports, FoldedAboutItsMiddleMovesAsTheWhole) {
   const Result whole = completed(input);
   EXPECT_FALSE(whole.used.half_model);
   expect_alike(half, whole, 1e-10);
-  EXPECT_GE(felt(half).size(), 6u);
+  EXPECT_GE(felt(half).size(), 5u);
 }
 
 TEST(ABeamOnSupports, HasTheSameEventsByEveryMethod) {
@@ -293,8 +288,8 @@ TEST(ABeamOnSupports, HasTheSameEventsByEveryMethod) {
   }
   input.solver.method = Method::central_difference;
   input.solver.rtol = 1e-9;
-  input.solver.step = 5e-9;
-  expect_alike(completed(input), result, 2e-8);
+  input.solver.step = 2e-8;
+  expect_alike(completed(input), result, 1e-7);
 }
 
 TEST(ABeamOnSupports, YieldsWithThemAsWithPinsWhereTheyHold) {
@@ -318,18 +313,32 @@ TEST(ADampedSupport, TakesTheEnergyThatTheRunAccountsFor) {
   expect_alike(completed(input), result, 1e-7);
 }
 
+TEST(ABeamOnSupports, ThatTipsUnderItsWeightIsRefused) {
+  Case input = elastic_bar();
+  input.scene.beam.springs = {support(0.0), support(0.2)};
+  input.scene.beam.start = BeamStart::equilibrium;
+  input.scene.gravity = 9.81;
+  for (const MeshKind mesh : {MeshKind::rigid, MeshKind::hermite}) {
+    input.model.mesh = mesh;
+    expect_refused(input, "beam.start", "tips or lifts off the supports");
+  }
+}
+
 TEST(ABeamOnSupports, ThatCannotBeIsRefusedWithItsReason) {
   const KeyValue rests = Names{"rests", "rests"};
   const std::tuple<const char*, const char*, Settings> refused[] = {
       {"beam.ends", "no load presses", {{"beam.ends", rests}}},
-      {"beam.start", "nothing holds",
+      {"beam.start",
+       "nothing holds",
        {{"beam.ends", Names{"rests", "free"}}, {"scene.gravity", 9.81}}},
-      {"beam.start", "lifts off the supports", {{"beam.ends", rests}, {"beam.load", -1e3},
-                                                {"scene.gravity", 1e3}}},
-      {"solver.method", "natural modes",
+      {"solver.method",
+       "natural modes",
        {{"beam.ends", rests}, {"scene.gravity", 9.81}, {"solver.method", "exponential"}}},
-      {"beam.damping.ratio", "natural modes",
-       {{"beam.ends", rests}, {"scene.gravity", 9.81}, {"beam.damping.ratio", 0.01},
+      {"beam.damping.ratio",
+       "natural modes",
+       {{"beam.ends", rests},
+        {"scene.gravity", 9.81},
+        {"beam.damping.ratio", 0.01},
         {"solver.method", "erk"}}},
   };
   for (const auto& [key, words, settings] : refused) {
