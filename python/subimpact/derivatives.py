@@ -161,11 +161,11 @@ def counterparts(base: Table, other: Table) -> tuple[Numbers, npt.NDArray[np.boo
 
 
 def shifted(case: Case, key: str, shift: float) -> Case:
-    """The case with the value of a key times exp(shift): of lists of forces and springs, every value."""
+    """The case with the value of a key times exp(shift): of lists of forces and springs, every force and stiffness."""
     value = case[key]
     factor = math.exp(shift)
     if isinstance(value, list):
-        value = [{name: number if name == "position" else [[time, factor * force] for time, force in number]
+        value = [{name: number if name not in ("stiffness", "force", "table") else [[time, factor * force] for time, force in number]
                   if isinstance(number, list) else factor * number for name, number in entry.items()} for entry in value]
     else:
         value = factor * value

@@ -52,7 +52,6 @@ void EventLoop::start() {
   const State y = beam_.initial_state();
   end_state_ = y;
   state_ = &end_state_;
-  beam_.settle_on_supports(y);
   beam_.commit(y);
   if (options_.begins_apart) return start_from(y);
   if (options_.first_touch > 0.0) observer_.on_approach(options_.first_touch, beam_);
@@ -203,7 +202,8 @@ void EventLoop::report_simultaneous(const EventFunction& event, double time, con
       if (function.of_rate()) continue;
       const EventValue at = beam_.evaluate(function, y);
       const double rounding = rounding_of(function, beam_, y, time, at);
-      if (!(std::abs(at.value) <= rounding && at.rate * time > rounding)) continue;
+      const bool moves = at.rate * options_.shortest_contact > rounding;
+      if (!moves || !(std::abs(at.value) <= rounding)) continue;
       report(function, time, y, true);
       break;
     }

@@ -226,6 +226,7 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
       std::move(tension), problem.restitution_velocity,
       problem.beam.may_lift() ? &problem.beam : nullptr});
   set_start(problem, beam);
+  beam.settle_on_supports(beam.initial_state());
   return beam;
 }
 

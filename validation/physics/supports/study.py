@@ -130,7 +130,7 @@ def beside_reference(program: str, name: str, case: dict) -> tuple[str, bool]:
         largest = max(s.force for s in expected)
         strong = [p for p in pairs if p[0].force > ROUNDING * largest]
         weak = [p for p in pairs if p[0].force <= ROUNDING * largest]
-        worst = max(difference(*p) for p in strong)
+        worst = max((difference(*p) for p in strong), default=math.inf)
         worst_weak = max((difference(*p) for p in weak), default=0.0)
         strong_left = [s for s in left if s.force > ROUNDING * largest]
         ok = ok and run.ok and worst < TOLERANCE and not strong_left
