@@ -143,7 +143,7 @@ TEST(NumbersOfTables, AreTheSameWhateverWasWrittenBefore) {
 TEST(TransitionsCsv, NamesASectionOnlyForASectionsEvent) {
   const Table rows = parse_csv(csv_of<Transition>(sample_result()));
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"time_s", "kind", "section", "value"}));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"time_s", "kind", "section", "value", "spring"}));
   EXPECT_EQ(rows[2][1], to_string(EventKind::contact_yields));
   EXPECT_EQ(rows[2][2], "");
   EXPECT_EQ(rows[3][2], "17");
