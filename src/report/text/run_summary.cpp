@@ -8,7 +8,6 @@
 #include "io/printable.h"
 #include "report/text/body_words.h"
 #include "report/text/strike_words.h"
-#include "report/text/support_words.h"
 #include "report/text/uncertain.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/report/text.h"

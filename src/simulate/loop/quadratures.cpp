@@ -123,11 +123,6 @@ double ForceQuadrature::over(const ObservedStep& step, const StruckBeam& beam) {
   return halved(a, b, whole, step, beam, 1);
 }
 
-double ForceQuadrature::roughly_over(const ObservedStep& step, const StruckBeam& beam) const {
-  const auto [a, b] = ends_of(step, beam);
-  return between<2>(a, b, beam);
-}
-
 double ForceQuadrature::up_to(double t, const State& y, const ObservedStep& step,
                               const StruckBeam& beam) {
   const Node a = node(step.t0(), step.y0(), beam), b = node(t, y, beam);

@@ -26,13 +26,13 @@ class ForceQuadrature {
   double over(const ObservedStep& step, const StruckBeam& beam);
   /// The largest indentation (m) that over() has evaluated within the step, without its ends.
   double largest_indentation() const { return largest_indentation_; }
-  /// The integral without correction or halving, for steps in pieces.
-  double roughly_over(const ObservedStep& step, const StruckBeam& beam) const;
+  /// The integral from the start of a step to a time t in it, where the state is y, without
+  /// correction or halving, for steps in pieces.
   double roughly_up_to(double t, const State& y, const ObservedStep& step,
                        const StruckBeam& beam) const {
     return between<2>(node(step.t0(), step.y0(), beam), node(t, y, beam), beam);
   }
-  /// Integral from the start of the step to a time t in it, where the state is y.
+  /// The same to the accuracy of over().
   double up_to(double t, const State& y, const ObservedStep& step, const StruckBeam& beam);
 
  private:

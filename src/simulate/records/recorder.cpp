@@ -182,7 +182,7 @@ void Recorder::check_push(double time, const State& y, const StruckBeam& beam) {
 void Recorder::integrate_force(const ObservedStep& step, const StruckBeam& beam) {
   double& integral = result_.sub_impacts.back().force_integral;
   if (events_ == EventHandling::interpolated) {
-    integral += force_.roughly_over(step, beam);
+    integral += force_.roughly_up_to(step.t1(), step.y1(), step, beam);
     return;
   }
   integral += force_.over(step, beam);

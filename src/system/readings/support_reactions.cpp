@@ -15,12 +15,6 @@ SupportReactions::SupportReactions(const StruckBeam& beam, double length, double
     return support && *support != EndSupport::free;
   };
   held_ = {is_held(0.0), is_held(end)};
-  for (const LiftingSupport& support : beam.supports()) {
-    if (support.position == 0.0) lies_on_[0] = true;
-    if (support.position == length || (support.position == 0.0 && mesh.symmetric())) {
-      lies_on_[1] = true;
-    }
-  }
   if (!SupportReactions::is_held()) return;
   momentum_ = eliminated(mesh.momentum_functional());
   add_damping(momentum_);
@@ -124,19 +118,20 @@ double SupportReactions::value(const Eliminated& of, double t, const State& y,
   return value + sum(of.of_velocities, beam_.beam_velocities(y));
 }
 
+bool SupportReactions::is_at(const LiftingSupport& support, std::size_t end) const {
+  return support.position == (end == 0 || beam_.mesh().symmetric() ? 0.0 : length_);
+}
+
 SupportReactions::Forces SupportReactions::on_supports(const State& y) const {
-  std::array<double, 2> sums{};
+  Forces forces;
   for (std::size_t j = 0; j < beam_.supports().size(); ++j) {
     const LiftingSupport& support = beam_.supports()[j];
-    const double force = -support.sense * beam_.support_force(j, y);
-    if (support.position == 0.0) sums[0] += force;
-    if (support.position == length_) sums[1] += force;
+    for (const std::size_t end : {0, 1}) {
+      if (!is_at(support, end)) continue;
+      forces[end] = forces[end].value_or(0.0) - support.sense * beam_.support_force(j, y);
+    }
   }
-  if (beam_.mesh().symmetric()) sums[1] = sums[0];
-  const auto of_end = [&](std::size_t end) {
-    return lies_on_[end] ? std::optional(sums[end]) : std::nullopt;
-  };
-  return {of_end(0), of_end(1)};
+  return forces;
 }
 
 SupportReactions::Forces SupportReactions::at(double t, const State& y, Accounts& accounts) const {

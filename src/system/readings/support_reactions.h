@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -17,7 +18,11 @@ class SupportReactions {
   SupportReactions(const StruckBeam& beam, double length, double struck_at);
 
   /// Whether any end is held, on a mesh that gives displacements at the ends, or lies on a support.
-  bool exist() const { return is_held() || lies_on_[0] || lies_on_[1]; }
+  bool exist() const {
+    return is_held() || std::ranges::any_of(beam_.supports(), [&](const LiftingSupport& support) {
+             return is_at(support, 0) || is_at(support, 1);
+           });
+  }
 
   /// At time t (s), x = 0 and x = l; none at a free end, or without a moment functional to
   /// distinguish the two.
@@ -42,13 +47,14 @@ class SupportReactions {
   void add_end_moment(double sign, double x, bool first, Eliminated& to) const;
   void add_damping(Eliminated& to) const;
   bool is_held() const { return held_[0] || held_[1]; }
+  bool is_at(const LiftingSupport& support, std::size_t end) const;
   // Of supports that lift, at x = 0 and x = l.
   Forces on_supports(const State& y) const;
   bool in_modes() const { return !beam_.modal_stiffness().empty(); }
 
   const StruckBeam& beam_;
   double length_, struck_at_;
-  std::array<bool, 2> held_{}, lies_on_{};
+  std::array<bool, 2> held_{};
   Eliminated momentum_;
   std::optional<Eliminated> moment_;  // d.w'' + M(0) - M(l)
 };
