@@ -47,7 +47,10 @@ TEST(CaseFileText, IsReadBackAsTheSameCase) {
       {"output.gauges=[{position='0.3 m', face='front'}, {position=1}]"},
       {"model.mesh=hermite", "model.elements=40", "beam.damping.ratio=0.01",
        "model.section=elastic"},
-      {"contact.law=hertz", "contact.stiffness=1.1e9"}};
+      {"contact.law=hertz", "contact.stiffness=1.1e9"},
+      {"beam.ends=rests,free", "scene.gravity=9.81",
+       "beam.springs=[{position=0.5, stiffness=1e3, one_sided=true, gap='0.1 mm', side='before', "
+       "damping=0.1}]"}};
   for (const auto& settings : all) {
     Case input = paper_case_with(settings);
     input.title = "\"quoted\" \\ <b> 'x' `y`\nsecond line \x01\x7f \xc3\xbc = [a]";
@@ -73,6 +76,20 @@ TEST(CaseFile, PlacesThingsByFractionsAndByLengths) {
     EXPECT_EQ(read.output.gauges[1].face, Face::front);
     EXPECT_EQ(read.scene.beam.springs[0].position, 0.1 / length);
   }
+}
+
+TEST(CaseFile, RefusesSpringsThatPushInNoWayThatIsKnown) {
+  for (const char* fault :
+       {"one_sided=true, gap=-1e-3", "gap=1e-3", "one_sided=false, side='before'",
+        "one_sided=true, side='left'", "one_sided=true, damping=-1", "one_sided=1"}) {
+    const std::string setting =
+        fmt::format("beam.springs=[{{position=0.1, stiffness=1e3, {}}}]", fault);
+    const std::string message = answer_of<CaseFileError>([&] { paper_case_with({setting}); });
+    EXPECT_NE(message.find("perhaps with one_sided = true"), std::string::npos) << message;
+  }
+  const Case read = paper_case_with(
+      {"beam.springs=[{position=0.1, stiffness=1e3, one_sided=true, gap='0.2 mm'}]"});
+  EXPECT_EQ(read.scene.beam.springs[0].one_sided, (OneSided{2e-4}));
 }
 
 TEST(CaseFile, RefusesGaugesBeyondTheBeamAndOnNoFace) {
