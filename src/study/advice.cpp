@@ -66,7 +66,7 @@ static bool lacks_shear(const Result& result) {
 
 std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Result& result) {
   std::vector<Advice> all;
-  if (!result.outcome.completed()) return all;
+  if (!result.outcome.completed() || result.turns_too_far()) return all;
   if (lacks_shear(result)) {
     all.push_back({{{"--set", "beam.theory=timoshenko"}},
                    result.work.all_seconds,

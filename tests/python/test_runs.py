@@ -7,12 +7,14 @@ import pickle
 import signal
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import subimpact as si
 
+PAPER = Path(__file__).parents[2] / "validation/physics/paper/case.toml"
 TABLES = {"sub_impacts": "events.csv", "transitions": "transitions.csv", "history": "history.csv",
           "sections": "sections.csv", "points": "points.csv", "shapes": "shapes.csv",
           "envelope": "envelope.csv", "strikes": "strikes.csv"}
@@ -42,6 +44,17 @@ def compare(result, directory):
         digits = ".9g" if table == "shapes" else ".17g"
         for row, line in zip(rows.tolist(), lines):
             assert [text_of(v, n, digits) for v, n in zip(row, heading)] == line
+
+
+def test_a_doubt_with_a_comma_is_read_whole_from_tables_and_a_beam_that_turns_too_far_has_no_set(tmp_path):
+    case = si.Case.from_file(PAPER).changed({"model.segments": 101, "solver.method": "central-difference", "striker.velocity": 120.0,
+                                             "time.end": 2e-3, "output.opening": 1e-6})
+    result = si.run(case, body_errors=False, out=tmp_path / "out")
+    doubts = si.read_results(tmp_path / "out").sub_impacts["doubt"]
+    assert doubts.tolist() == result.sub_impacts["doubt"].tolist() and any(", and contacts" in doubt for doubt in doubts)
+    assert result.summary["verdict"]["text"].startswith("Not a result: rotations of 2.") and result.summary["next"] == []
+    runs = si.sweep(case, {"striker.velocity": [12.0, 120.0]}, error_bars="off", out=tmp_path / "sweep", workers=0).runs
+    assert runs["permanent_set_m"].notna().tolist() == [True, False]
 
 
 @pytest.mark.parametrize("error_bars", [None, "off", "time"])

@@ -18,7 +18,7 @@ from .markup import (charts, data_element, escaped, figures, filled, headlines, 
 _SCRIPTS = ("data.js", "axes.js", "surroundings.js", "motion.js", "panels.js", "report.js")
 # Answers of the first screen.
 _FIRST = ("sub_impacts", "largest_force", "first_parting", "contact_end", "permanent_set")
-_MOST_ZONES = 8
+_MOST_ZONES = _MOST_FLIGHTS = 8
 
 
 class Figures(NamedTuple):
@@ -93,7 +93,8 @@ def _data(files: Files, summary: Mapping[str, Any], report: Mapping[str, Any], h
         history_note = f"Of {counts['history_rows']} rows the charts have {n_rows}, with the largest and smallest values of each span."
     meanings = dict(report["columns"])
     del meanings["time_s"]
-    zones = (summary["rest"] or {}).get("plastic_zones", [])
+    is_result = summary["verdict"]["beam"] != "turned_too_far"
+    zones = (summary["rest"] or {}).get("plastic_zones", []) if is_result else []
     data: dict[str, Any] = {
         "end": end, **scene, "yields": bool(zones), "max_force": summary["maxima"]["force_N"],
         "max_indentation": summary["maxima"]["indentation_m"], "sub_impacts": _sub_impacts(hits, end),
@@ -244,7 +245,8 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
         "columns": "".join(f"<th>{escaped(each['name'])}<small>{escaped(_unit(each['unit']))}</small></th>" for each in columns),
         "sub_impacts": "".join(_rows(report, hits)),
         "flights": "".join(f"<p>After sub-impact {each['after_index']} there may be another one: {in_print(each['reason'])}.</p>\n"
-                           for each in flights),
+                           for each in flights[:_MOST_FLIGHTS])
+        + paragraphs([f"So it is after {_counted(len(flights) - _MOST_FLIGHTS, 'more sub-impact')}"] if len(flights) > _MOST_FLIGHTS else []),
         "strikes": strikes,
         "next": _section("What next", f'<dl class="steps">\n{steps}</dl>\n' if steps else ""),
         "measured": section,

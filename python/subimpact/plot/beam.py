@@ -93,6 +93,8 @@ def envelope(result: Result, axes: Any) -> None:
     against its chord. Shaded: plastic zones."""
     table = _along_beam(result, result.envelope)
     x, zones = table["position_m"], result.summary["rest"]["plastic_zones"]
+    if result.summary["verdict"]["beam"] == "turned_too_far":  # its numbers are no result
+        zones = []
     limit = result.summary["used"]["yield_curvature_per_m"]
     strain = 1e3 * (result["beam.yield_stress"] or np.nan) / result["beam.youngs_modulus"] if zones else np.nan
     moment = _bending_stiffness(result.shapes) * limit if zones and limit else np.nan

@@ -99,6 +99,9 @@ TEST(Advice, IsNoneWhereAllIsCertainAndOver) {
   EXPECT_EQ(advice_on(result), "");
   result.contact_over = false;
   EXPECT_EQ(advice_on(result), "--set time.end=0.016\n");
+  result.largest_rotation = 12.0;
+  EXPECT_EQ(advice_on(result), "") << "a run that is no result";
+  result.largest_rotation = 0.0;
   result.outcome.kind = OutcomeKind::stopped;
   EXPECT_EQ(advice_on(result), "");
 }

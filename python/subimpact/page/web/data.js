@@ -71,6 +71,9 @@ class Strike {
     }
   }
 
+  // Numbers of more digits would run into the name of their axis.
+  unitOfForce() { return this.max_force < 1e5 ? {name: 'N', per_newton: 1} : {name: 'kN', per_newton: 1e-3}; }
+
   get hasHistory() { return this.times.length > 0; }
   get hasShapes() { return Boolean(this.shapes); }
 

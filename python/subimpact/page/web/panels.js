@@ -163,18 +163,18 @@ class Loop {
   }
 
   drawPart() {
-    const {strike} = this;
-    const mm = (i) => 1e3 * strike.history.indentation_m[i], newton = (i) => strike.history.force_N[i];
+    const {strike} = this, unit = strike.unitOfForce();
+    const mm = (i) => 1e3 * strike.history.indentation_m[i], newton = (i) => unit.per_newton * strike.history.force_N[i];
     const visible = this.pieces.map((piece) => ({...piece, rows: this.shown(piece)})).filter((p) => p.rows.length > 1);
     let low = Infinity, high = 0, most = 0;
     for (const i of visible.flatMap(({rows}) => rows)) {
       [low, high, most] = [Math.min(low, mm(i)), Math.max(high, mm(i)), Math.max(most, newton(i))];
     }
-    if (!(high > low)) [low, high, most] = [0, 1e3 * strike.max_indentation || 1, strike.max_force || 1];
+    if (!(high > low)) [low, high, most] = [0, 1e3 * strike.max_indentation || 1, unit.per_newton * strike.max_force || 1];
     const margin = 0.06 * (high - low);
     const axes = new Axes(this.canvas, {
       x: {range: [low > margin ? low - margin : 0, high + margin], label: 'indentation, mm'},
-      y: {range: [0, 1.06 * most], label: 'contact force, N'}});
+      y: {range: [0, 1.06 * most], label: `contact force, ${unit.name}`}});
     this.axes = axes;
     Object.assign(this.dot.style, {left: `${this.canvas.offsetLeft - 5}px`, top: `${this.canvas.offsetTop - 5}px`});
     axes.frame();
@@ -198,7 +198,7 @@ class Loop {
 
   drawTime() {
     const {axes, strike, view, dot} = this;
-    const x = axes.toX(1e3 * strike.at('indentation_m', view.time)), y = axes.toY(strike.at('force_N', view.time));
+    const x = axes.toX(1e3 * strike.at('indentation_m', view.time)), y = axes.toY(strike.unitOfForce().per_newton * strike.at('force_N', view.time));
     dot.hidden = !(x >= axes.left && x <= axes.right && y >= axes.top - 1 && y <= axes.bottom + 1);
     dot.style.transform = `translate(${x}px, ${y}px)`;
   }

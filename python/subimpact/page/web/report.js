@@ -43,7 +43,7 @@ function addStrikes(strikes) {
 }
 
 const timeCharts = [
-  {id: 'chart-force', label: 'force, N', columns: [{name: 'force_N', label: 'contact force'}]},
+  {id: 'chart-force', columns: [{name: 'force_N', label: 'contact force'}]},
   {id: 'chart-displacement', label: 'displacement, mm', columns: [
     {name: 'w_c_m', label: 'struck point w_c', factor: 1e3},
     {name: 'w_m_m', label: 'striker w_m', factor: 1e3},
@@ -92,7 +92,9 @@ class Page {
       document.getElementById('chart-measured')?.remove();
       return;
     }
-    for (const {id, label, columns: all} of timeCharts) {
+    const ofForce = strike.unitOfForce();
+    for (const {id, label = `force, ${ofForce.name}`, columns: all} of timeCharts) {
+      if (id === 'chart-force') all[0].factor = ofForce.per_newton;
       const columns = all.filter(({name, ifAny}) => !ifAny || strike.history[name].some((value) => value !== 0));
       this.addChart(id, label, columns.map((column) =>
         ({...column, label: column.label.replace('striker', strike.stop ? 'stop' : 'striker')})));
