@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -131,7 +132,9 @@ std::string_view leading_decimal_comma(std::string_view text) {
 }
 
 std::string decimal_comma_hint(std::string_view text) {
-  if (text.empty() || leading_decimal_comma(text) != text) return {};
+  const std::string_view comma = leading_decimal_comma(text), unit = text.substr(comma.size());
+  const bool is_value = unit.empty() || unit[0] == ' ' || std::isalpha(unit[0]) != 0;
+  if (comma.empty() || !is_value) return {};
   std::string number(text);
   number[number.find(',')] = '.';
   return "; TOML writes a decimal point: " + number;

@@ -208,8 +208,8 @@ std::string pressure_note(const Case& input, const Result& result) {
   std::string words = pressure.is_mean ? "the mean" : "in the middle";
   const double stress = input.scene.beam.yield_stress;
   if (std::isfinite(pressure.first_yield)) {
-    words +=
-        fmt::format("; yields from {} in the middle", plain_text(pressure.first_yield, as_stress));
+    words += fmt::format("; {} from {} in the middle", pressure.is_mean ? "yielded" : "yields",
+                         plain_text(pressure.first_yield, as_stress));
     if (std::isfinite(stress)) {
       words += fmt::format("; {:.3g} of beam.yield_stress", pressure.at_force / stress);
     }

@@ -31,6 +31,7 @@ constexpr const char* spoilt_cases[][3] = {
     {"mass = 0.201", "mass = 0.201\nposition = '0.8 m'",
      "9:1: |striker.position is 1.12|or a length such as|beam.length is 0.7112 m"},
     {"density = 2600\nyoungs_modulus = 71.96e9", "material = 'S275'", "|did you mean \"S235\"?"},
+    {"length = 0.7112", "length = '711,2 mm'", "|a decimal point: 711.2 mm"},
     {"mass = 0.201", "mass = 0.201\nposition = '0.5 kg'", R"(|"kg" is none of its units: m, mm)"},
     {"", "[model]\nsegments = '501 cells'", R"(14:1: |("501 cells")|a whole number)"},
     {"velocity = 15.9", "velocity = '15.9 M/S'", R"(|"M/S" is none of its units: m/s, mm/s)"},

@@ -69,6 +69,8 @@ TEST(CaseFile, PlacesThingsByFractionsAndByLengths) {
                          "striker.position=100 mm", "output.points=['0.1 m', '200 mm']"});
     EXPECT_EQ(read.scene.striker.position, 0.1 / length);
     EXPECT_EQ(read.output.points, (std::vector{0.1 / length, 0.2 / length}));
+    const Case by_setting = paper_case_with({of_beam, "output.sections=10 cm, 0.2 m"});
+    EXPECT_EQ(by_setting.output.sections, read.output.points);
     ASSERT_EQ(read.output.gauges.size(), 2u);
     EXPECT_EQ(read.output.gauges[0].position, 0.25);
     EXPECT_EQ(read.output.gauges[0].face, Face::back);
