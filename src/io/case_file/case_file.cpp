@@ -39,9 +39,9 @@ std::string unit_given(const CaseKey& key, const KeyValue& value) {
 std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& text) {
   const bool is_word = std::ranges::find(key.choices, text, &Choice::name) != key.choices.end();
   const bool wants_text = key.type == KeyType::text || key.type == KeyType::choice || is_word;
-  const bool has_units = key.type == KeyType::numbers && std::isalpha(text.empty() ? 0 : text.back());
-  const bool wants_pair =
-      (key.type == KeyType::pair || has_units) && !text.starts_with('[');
+  const bool has_units =
+      key.type == KeyType::numbers && std::isalpha(text.empty() ? 0 : text.back());
+  const bool wants_pair = (key.type == KeyType::pair || has_units) && !text.starts_with('[');
   const bool wants_numbers = key.type == KeyType::numbers && !text.starts_with('[');
   const bool is_quoted = text.starts_with('"') || text.starts_with('\'');
   if (wants_text && !is_quoted) return KeyValue(text);
