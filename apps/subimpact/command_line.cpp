@@ -66,7 +66,7 @@ std::string usage_error(const CLI::App* program, const CLI::Error& error) {
 std::vector<std::string> joined(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   for (std::size_t i = 1; i < words.size(); ++i) {
-    const bool is_value = words[i] == "off" || words[i] == "time" || words[i] == "all";
+    const bool is_value = words[i] == "off" || words[i] == "all";
     if (!is_value || words[i - 1] != "--error-bars") continue;
     words[i - 1] += "=" + words[i];
     words.erase(words.begin() + static_cast<std::ptrdiff_t>(i));

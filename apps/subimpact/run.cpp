@@ -18,7 +18,7 @@ struct RunOptions {
   bool all = false;  // rows of the table
   std::string body_errors = "on";
   bool verbose = false;
-  std::string error_bars;  // empty: from coarser meshes; "off", "time" or "all"
+  std::string error_bars;  // empty, "off" or "all"
   Jobs jobs = n_processors();
   bool quiet = false;
 };
@@ -31,8 +31,7 @@ std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOption
         "runs; leave out --error-bars, or --within and accuracy.event_times",
         options.error_bars));
   }
-  if (options.error_bars == "off") return ErrorBars::off;
-  return options.error_bars == "time" ? ErrorBars::time : ErrorBars::all;
+  return options.error_bars == "off" ? ErrorBars::off : ErrorBars::all;
 }
 
 WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOptions& options,
@@ -202,10 +201,10 @@ std::vector<Option> options_of(RunOptions& options) {
   Option error_bars = {
       "--error-bars", &options.error_bars,
       "By default all errors are estimated from runs on coarser meshes, which take up to "
-      "one and a half times as long as the run itself. --error-bars=off: no estimate. "
-      "--error-bars: from other runs for each of time, mesh and layers; takes about 4 "
-      "times as long. --error-bars=time: of the integration in time only, about twice as long"};
-  error_bars.choices = {"all", "time", "off"};
+      "one and a half times as long as the run itself; on a mesh that the case fixes, those of "
+      "sub-impacts are of the integration in time. --error-bars: of that mesh too. "
+      "--error-bars=off: no estimate"};
+  error_bars.choices = {"all", "off"};
   error_bars.if_bare = "all";
   return options.input.of_case_and_method() +
          std::vector<Option>{
@@ -227,7 +226,7 @@ std::vector<Option> options_of(RunOptions& options) {
              of_jobs(options.jobs),
              {"--quiet", &options.quiet, "Print nothing but warnings and errors"},
              {"--verbose", &options.verbose,
-              "Print mesh, method, errors by source, conservation and work too"},
+              "Print mesh, method, the runs beside, conservation and work too"},
              {"--all", &options.all,
               "Print every sub-impact, also those that are not certain one by one"}};
 }
@@ -243,7 +242,6 @@ Command run_command() {
       "  subimpact run case.toml --within 1us\n"
       "  subimpact run case.toml --opening 1um\n"
       "  subimpact run case.toml --error-bars\n"
-      "  subimpact run case.toml --error-bars=time\n"
       "  subimpact run case.toml --method central-difference --set solver.step=1e-7\n"
       "  subimpact run case.toml --set beam.ends=free,free --set 'title=\"Second try\"'\n"
       "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "

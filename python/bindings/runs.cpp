@@ -16,10 +16,9 @@ namespace {
 std::optional<ErrorBars> error_bars_named(const std::optional<std::string>& name) {
   if (!name) return std::nullopt;
   if (*name == "off") return ErrorBars::off;
-  if (*name == "time") return ErrorBars::time;
   if (*name == "all") return ErrorBars::all;
   throw py::value_error("error_bars is \"" + *name +
-                        "\"; allowed: None (from coarser meshes), \"off\", \"time\", \"all\"");
+                        "\"; allowed: None (from coarser meshes), \"off\", \"all\"");
 }
 
 Finished run(const LoadedCase& loaded, const std::optional<std::string>& error_bars, Jobs jobs,

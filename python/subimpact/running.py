@@ -13,7 +13,7 @@ from ._text import path_text
 from .case import Case, as_case
 from .result import Result
 
-ErrorBars = Literal["off", "time", "all"]
+ErrorBars = Literal["off", "all"]
 
 
 def run(
@@ -30,8 +30,8 @@ def run(
     """Simulates a case, as `subimpact run` does.
 
     error_bars  None: the errors of event times are estimated from a run half as fine, for a quarter
-                of the time; "off": no estimates; "time", "all": from other runs, one for each
-                source of error, which takes longer
+                of the time; "off": no estimates; "all": those of sub-impacts too where the
+                case fixes the mesh
     within      bound on the error of every event time, s or "1 us"; the program chooses what the
                 case leaves open of mesh, method and tolerance. Sets accuracy.event_times
     jobs        threads for the runs of error estimates; results do not depend on it
@@ -48,8 +48,8 @@ def run(
     The [scatter] of a case does not change its run: `subimpact.scatter` shows what it leaves.
     """
     case = as_case(case)
-    if error_bars not in (None, "off", "time", "all"):
-        raise ValueError(f"error_bars is {error_bars!r}; allowed: None, \"off\", \"time\", \"all\"")
+    if error_bars not in (None, "off", "all"):
+        raise ValueError(f"error_bars is {error_bars!r}; allowed: None, \"off\", \"all\"")
     if within is not None:
         case = case.changed({"accuracy.event_times": within})
         if case["accuracy.event_times"] > case["time.end"]:

@@ -15,19 +15,10 @@ inline double median(std::vector<double> values) {
   return *middle;
 }
 
-// Richardson extrapolation of values v(h) = v(0) + c h^p, computed with mesh widths or steps h that
-// get finer.
-
-/// v(0) from v(h) = coarse and v(h/ratio) = fine.
+/// v(0) from v(h) = v(0) + c h^order = coarse and v(h/ratio) = fine, by Richardson.
 inline double richardson_limit(double coarse, double fine, double ratio, double order) {
   assert(ratio > 1.0 && order > 0.0);
   return fine + (fine - coarse) / (std::pow(ratio, order) - 1.0);
-}
-
-/// (v(h1) - v(h2))/(v(h2) - v(h3)), h1 > h2 > h3, by which values show their order.
-inline double ratio_of_differences(double h1, double h2, double h3, double order) {
-  assert(h1 > h2 && h2 > h3 && order > 0.0);
-  return (std::pow(h1, order) - std::pow(h2, order)) / (std::pow(h2, order) - std::pow(h3, order));
 }
 
 }  // namespace subimpact

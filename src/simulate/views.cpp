@@ -56,11 +56,6 @@ std::string_view to_string(OutcomeKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::string_view to_string(ErrorSource source) {
-  static constexpr std::string_view names[] = {"layers", "mesh", "mesh and time", "time"};
-  return names[static_cast<std::size_t>(source)];
-}
-
 std::string_view to_string(RunTotal name) {
   // clang-format off
   static constexpr std::string_view names[] = {

@@ -19,8 +19,7 @@ namespace {
 std::vector<CaseBeside> cases_asked_for(const Case& input, const RunRequest& request) {
   if (!request.error_bars) return cases_beside_on_given_mesh(input);
   if (request.error_bars == ErrorBars::off) return {};
-  if (request.error_bars == ErrorBars::all) return cases_beside_by_part(input);
-  return cases_beside_in_time(input);
+  return cases_beside(input);
 }
 
 // `beside`: the cases that judge the run, if they are known.

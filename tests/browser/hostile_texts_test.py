@@ -61,8 +61,6 @@ class HostileTexts(PageTestCase):
         summary["choice"] = summary["program"]["version"] = summary["used"]["mesh"] = words
         summary["libraries"] = {words: words}
         summary["error_bars"].update({"first_unresolved_index": 1, "reason": words, "refined_run": words})
-        for part in summary["error_bars"]["parts"]:
-            part.update({"name": words, "refined_run": words, "reason": words, "first_unresolved_index": 1})
         summary["outcome"].update({"kind": "solver-failed", "message": words})
         summary["verdict"]["text"] = words
         for answer in summary["answers"]:

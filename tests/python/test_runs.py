@@ -57,7 +57,7 @@ def test_a_doubt_with_a_comma_is_read_whole_from_tables_and_a_beam_that_turns_to
     assert runs["permanent_set_m"].notna().tolist() == [True, False]
 
 
-@pytest.mark.parametrize("error_bars", [None, "off", "time"])
+@pytest.mark.parametrize("error_bars", [None, "off", "all"])
 def test_tables_are_those_of_the_program_bit_for_bit(elastic, error_bars, tmp_path, program):
     elastic.write(tmp_path / "case.toml")
     option = [f"--error-bars={error_bars}"] if error_bars else []
@@ -153,7 +153,7 @@ def test_an_unknown_kind_of_error_bars_and_no_jobs_are_refused(elastic):
     with pytest.raises(ValueError, match="jobs"):
         si.run(elastic, jobs=0)
     with pytest.raises(si.CaseError, match="event_times"):
-        si.run(elastic, error_bars="time", within=1e-6)
+        si.run(elastic, error_bars="all", within=1e-6)
 
 
 def test_files_that_cannot_be_written_or_read_raise(elastic, tmp_path):

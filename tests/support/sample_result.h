@@ -69,7 +69,6 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
     if (!*s.certain) s.doubt = Reason{{}, "they part"};
     s.start_error = first ? 0.0 : error;
     if (s.end) s.end_error = error;
-    s.error_mesh = error;
     s.peak_force_error = first ? 0.43 : 46.0;
     s.impulse_error = first ? 4.9e-6 : 5.2e-4;
     s.max_indentation_error = s.residual_indentation_error = first ? 8e-9 : 9e-7;
@@ -77,9 +76,6 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
     if (s.opening) s.opening_error = first ? 3e-8 : 2e-6;
     if (*s.certain) estimate.largest_error = error;
   }
-  estimate.parts = {
-      {{"the same, coarser", estimate.first_unresolved, estimate.reason, estimate.largest_error},
-       ErrorSource::mesh}};
   const auto count = [&](std::size_t from, std::size_t to) {  // of [from, to), uncertain ones
     const std::size_t n_before = std::clamp(n_certain, from, to);
     return Total{static_cast<double>(to - from), static_cast<double>(to - n_before)};
@@ -105,8 +101,8 @@ inline Result sample_result_with_an_uncertain_flight(std::size_t after) {
   Result result = sample_result_with_errors(sample_result().sub_impacts.size());
   ErrorEstimate& estimate = *result.error_estimate;
   estimate.uncertain_flights = {{after, {Reason::Kind::another_beside, "the same, coarser"}}};
-  estimate.first_unresolved = estimate.parts.front().first_unresolved = after + 1;
-  estimate.reason = estimate.parts.front().reason = estimate.uncertain_flights.front().reason;
+  estimate.first_unresolved = after + 1;
+  estimate.reason = estimate.uncertain_flights.front().reason;
   estimate.totals.front().total.error = 1.0;
   return result;
 }

@@ -45,9 +45,6 @@ std::string contact_over_words(const Result& result);
 /// has finer_meshes.
 std::string finer_meshes_words(const Result& result);
 
-/// The error of each source by itself, with the runs that show it: "mesh error" and its words.
-std::vector<std::pair<std::string, std::string>> error_part_words(const Result& result);
-
 /// What acts on the bodies besides the strike, and how the beam starts: "gravity 9.81 m/s2, 1
 /// spring"; empty for a beam at rest without loads and springs.
 std::string others_in_scene(const Scene& scene);
@@ -57,7 +54,7 @@ void make_answers(const Case& input, Result& result);
 
 /// The title and the strike, the verdict, a table of the answers with both errors of each, what the
 /// largest errors of the body come from and what to do about them, doubts and warnings; lines of at
-/// most 100 columns. `verbose` adds notes, all parts, mesh, method, errors by source, conservation
+/// most 100 columns. `verbose` adds notes, all parts, mesh, method, the runs beside, conservation
 /// and work. Of a result with answers (make_answers).
 std::string run_summary(const Case& input, const Result& result, bool verbose = false);
 

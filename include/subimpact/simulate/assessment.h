@@ -19,22 +19,16 @@ struct SubImpactAssessment {
   std::optional<bool> certain;        ///< exists, alone, in this place
   std::optional<double> probability;  ///< that it exists so; 1 where certain
   std::optional<Reason> doubt;        ///< why it is not certain
-  std::optional<double> start_error;  ///< s, error estimate of start: sum of its parts
+  std::optional<double> start_error;  ///< s, error estimate of start
   std::optional<double> end_error;    ///< s, error estimate of end
   /// s, errors of the body of start and end (BodyErrors): the sum of its parts; none: not known.
   std::optional<double> start_body_error, end_body_error;
-  std::optional<double> error_time;                  ///< s, part due to the integration in time
-  std::optional<double> error_mesh;                  ///< s, part due to the mesh
-  std::optional<double> error_layers;                ///< s, part due to layers in the section
   std::optional<double> peak_force_error;            ///< N
   std::optional<double> impulse_error;               ///< N s
   std::optional<double> max_indentation_error;       ///< m
   std::optional<double> residual_indentation_error;  ///< m
   std::optional<double> striker_velocity_error;      ///< m/s
   std::optional<double> opening_error;               ///< m
-  /// Times extrapolated to the limit of fine meshes (s) and their uncertainty, where a sequence of
-  /// meshes converges at the expected order.
-  std::optional<double> start_mesh_limit, end_mesh_limit, mesh_limit_error;
 };
 
 /// A number of the run as a whole, and its estimated error; none: not known.
@@ -65,29 +59,17 @@ struct ZoneTotals {
   Total sub_impacts;  ///< their number
 };
 
-/// Errors of the times of sub-impacts, from all sources or from one.
-struct ErrorOfTimes {
+/// A source of errors.
+enum class ErrorSource { mesh, mesh_and_time, time };
+
+/// The judgement of a run by the runs beside it: which sub-impacts are certain, and errors.
+struct ErrorEstimate {
   std::string refined_run;  ///< the runs compared with, in words
   /// The first sub-impact (from 0) that is not certain, or that follows a flight which may hold
   /// another one; none if all are certain and no others are possible.
   std::optional<std::size_t> first_unresolved;
   std::optional<Reason> reason;  ///< why it is not certain
   double largest_error = 0.0;    ///< s, of the times of the certain sub-impacts
-};
-
-/// A source of errors.
-enum class ErrorSource { layers, mesh, mesh_and_time, time };
-std::string_view to_string(ErrorSource source);
-inline bool includes_mesh(ErrorSource source) {
-  return source == ErrorSource::mesh || source == ErrorSource::mesh_and_time;
-}
-
-/// The judgement of a run by the runs beside it: which sub-impacts are certain, and errors.
-struct ErrorEstimate : ErrorOfTimes {
-  struct Part : ErrorOfTimes {
-    ErrorSource source = ErrorSource::mesh_and_time;
-  };
-  std::vector<Part> parts;
 
   /// A flight between two sub-impacts, or after the last, that may hold another sub-impact.
   struct UncertainFlight {

@@ -13,9 +13,8 @@ namespace subimpact {
 
 /// Where the error estimates of event times come from.
 enum class ErrorBars {
-  off,   ///< there are none
-  time,  ///< another run in time (cases_beside_in_time)
-  all    ///< other runs in time, mesh and layers (cases_beside_by_part)
+  off,  ///< there are none
+  all   ///< coarser meshes (cases_beside), also beside one that the case fixes
 };
 
 struct RunRequest : WithinOptions {

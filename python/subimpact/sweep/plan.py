@@ -81,8 +81,8 @@ class Plan:
         return {key: self.case[key] for key in self.case._load().chosen() if key.split(".")[0] not in tables}
 
     def _check_numbers(self) -> None:
-        if self.error_bars not in (None, "off", "time", "all"):
-            raise PlanError(f'error_bars is "{self.error_bars}"; allowed: "off", "time", "all"')
+        if self.error_bars not in (None, "off", "all"):
+            raise PlanError(f'error_bars is "{self.error_bars}"; allowed: "off", "all"')
         for name, value, least, most in (
             ("samples", 1 if self.samples is None else self.samples, 1, MOST_CASES),
             ("seed", self.seed, 0, 2**64 - 1),

@@ -45,13 +45,6 @@ const Record<ToleranceOutcome> tolerance_record = {
     {"obstacle", "why no finer mesh was run", &ToleranceOutcome::obstacle},
     {"key_to_free", "key of the case that prevents it and could be freed", &ToleranceOutcome::key, Form::empty_is_null}};
 
-const Record<ErrorEstimate::Part> error_part_record = {
-    {"name", "time, mesh, mesh and time, or layers", &ErrorEstimate::Part::source},
-    {"refined_run", "the run compared with", &ErrorEstimate::Part::refined_run},
-    {"max_error_s", "largest error of a certain time", &ErrorEstimate::Part::largest_error},
-    {"first_unresolved_index", "number, from 1, of the first uncertain sub-impact", &ErrorEstimate::Part::first_unresolved, Form::from_one},
-    {"reason", "why it is uncertain", &ErrorEstimate::Part::reason}};
-
 const Record<ErrorEstimate::UncertainFlight> flight_record = {
     {"after_index", "number, from 1, of the sub-impact before it", &ErrorEstimate::UncertainFlight::after, Form::from_one},
     {"reason", "why it may hold another sub-impact", &ErrorEstimate::UncertainFlight::reason}};
@@ -73,7 +66,6 @@ const Record<ErrorEstimate> error_record = {
     {"max_time_error_s", "largest error of a certain time", &ErrorEstimate::largest_error},
     {"first_unresolved_index", "number, from 1, of the first sub-impact that is not certain", &ErrorEstimate::first_unresolved, Form::from_one},
     {"reason", "why it is uncertain", &ErrorEstimate::reason},
-    {"parts", "sources of error, one by one", &ErrorEstimate::parts, error_part_record},
     {"uncertain_flights", "", &ErrorEstimate::uncertain_flights, flight_record},
     {"finer_meshes", "of a mesh that the case fixes: what finer ones would change", &ErrorEstimate::finer_meshes, finer_meshes_record},
     {"joined", "where many sub-impacts are not certain: with output.opening", &ErrorEstimate::joined, joined_record}};

@@ -185,9 +185,7 @@ std::string details(const Case& input, const Result& result) {
                            to_text(*find_case_key("model.section")->get(input)),
                            counted(result.used.n_unknowns, "unknown")));
   if (!result.choice.empty()) line("chosen because", printable(result.choice));
-  if (result.error_estimate) {
-    for (const auto& [name, words] : error_part_words(result)) line(name, words);
-  }
+  if (result.error_estimate) line("runs beside", result.error_estimate->refined_run);
   line("method", fmt::format("{}{}", to_string(input.solver.method),
                              result.used.table ? ", table " + *result.used.table : ""));
   line("conservation",

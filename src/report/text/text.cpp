@@ -18,7 +18,7 @@ bool has_first_touch_alone(const Result& result) {
 }
 
 // How certain: "times of the certain ones to 2 us; <first reason why others are not>".
-std::string certain_text(const Result& result, const ErrorOfTimes& found) {
+std::string certain_text(const Result& result, const ErrorEstimate& found) {
   if (!found.first_unresolved) {
     return has_first_touch_alone(result)
                ? "no event time up to " + duration_text(result.outcome.time) +
@@ -59,20 +59,6 @@ std::string finer_meshes_words(const Result& result) {
   }
   text += "; errors of times are those on this mesh, errors of totals include it";
   return finer.doubt ? text + "; " + words_of(finer.doubt) : text;
-}
-
-std::vector<std::pair<std::string, std::string>> error_part_words(const Result& result) {
-  const ErrorEstimate& estimate = *result.error_estimate;
-  std::vector<std::pair<std::string, std::string>> parts;
-  for (const ErrorEstimate::Part& part : estimate.parts) {
-    const bool is_repeated = part.first_unresolved == estimate.first_unresolved && part.reason &&
-                             part.reason == estimate.reason;
-    parts.emplace_back(
-        fmt::format("{} error", to_string(part.source)),
-        fmt::format("{} (runs beside: {})", is_repeated ? "as above" : certain_text(result, part),
-                    part.refined_run));
-  }
-  return parts;
 }
 
 std::string duration_text(double seconds) {

@@ -393,7 +393,7 @@ std::string total_text(const Result& result, RunTotal name, double value, const 
   return text_of({value, error}, measure) + (is_odd ? " (error not known)" : "");
 }
 
-std::string place_of_doubt(const Result& result, const ErrorOfTimes& found) {
+std::string place_of_doubt(const Result& result, const ErrorEstimate& found) {
   const std::size_t i = *found.first_unresolved;
   if (result.sub_impacts.empty()) return "a touch";
   if (i >= result.sub_impacts.size()) return "after the last sub-impact";

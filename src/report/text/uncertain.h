@@ -116,7 +116,7 @@ std::string count_text(const Total& count);
 std::string total_text(const Result& result, RunTotal name, double value, const Measure& measure);
 
 /// Where something is not certain: "sub-impact 3", or the flight before it: "after sub-impact 2",
-/// "after the last sub-impact". `found`: the error estimate or a part, with a first doubt.
-std::string place_of_doubt(const Result& result, const ErrorOfTimes& found);
+/// "after the last sub-impact". `found`: with a first doubt.
+std::string place_of_doubt(const Result& result, const ErrorEstimate& found);
 
 }  // namespace subimpact

@@ -154,24 +154,6 @@ std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
   return all;
 }
 
-std::vector<CaseBeside> cases_beside_by_part(const Case& input) {
-  std::vector<CaseBeside> all = cases_beside_in_time(input);
-  for (const double size : {near_size, next_size, far_size}) {
-    std::optional<CaseBeside> beside = on_mesh_of(size, input);
-    if (!beside) continue;
-    beside->source = ErrorSource::mesh;
-    all.push_back(std::move(*beside));
-  }
-  const bool has_layers = descriptor_of(input.model.section).has_layers && !input.parts.section;
-  if (has_layers && may_yield(input)) {
-    CaseBeside exact{input, ErrorSource::layers, "the exact section"};
-    exact.input.output = output_beside(input);
-    exact.input.model.section = SectionKind::exact;
-    all.push_back(std::move(exact));
-  }
-  return all;
-}
-
 std::vector<RunBeside> simulate_beside(const Case& input, const std::vector<CaseBeside>& cases,
                                        Jobs jobs, const Progress& progress, RowSink* rows,
                                        Result& run) {

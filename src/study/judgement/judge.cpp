@@ -38,7 +38,7 @@ auto between(const std::vector<NearMiss>& all, double from, double to) {
 
 bool of_mesh(std::span<const RunBeside> beside) {
   return std::ranges::any_of(beside, [](const RunBeside& other) {
-    return other.of.of_rows && includes_mesh(other.of.source);
+    return other.of.of_rows && other.of.source != ErrorSource::time;
   });
 }
 

@@ -25,14 +25,9 @@ constexpr double alike = 0.025;  // velocities at the end, over that of the stri
 
 using UncertainFlight = ErrorEstimate::UncertainFlight;
 
-void add_error(std::optional<double>& sum, double error) { sum = sum.value_or(0.0) + error; }
-
 // All errors of a sub-impact.
 constexpr std::optional<double> SubImpact::*errors[] = {&SubImpact::start_error,
                                                         &SubImpact::end_error,
-                                                        &SubImpact::error_time,
-                                                        &SubImpact::error_mesh,
-                                                        &SubImpact::error_layers,
                                                         &SubImpact::peak_force_error,
                                                         &SubImpact::impulse_error,
                                                         &SubImpact::max_indentation_error,
@@ -40,33 +35,21 @@ constexpr std::optional<double> SubImpact::*errors[] = {&SubImpact::start_error,
                                                         &SubImpact::striker_velocity_error,
                                                         &SubImpact::opening_error};
 
-std::optional<double>* part_of(SubImpact& s, ErrorSource source) {
-  switch (source) {
-    case ErrorSource::time:
-      return &s.error_time;
-    case ErrorSource::mesh:
-      return &s.error_mesh;
-    case ErrorSource::layers:
-      return &s.error_layers;
-    default:
-      return nullptr;
+void set_errors(const Judge& judge, std::size_t i, SubImpact& s) {
+  s.start_error = judge.time_error(2 * i);
+  s.end_error.reset();
+  if (s.end) s.end_error = judge.time_error(2 * i + 1);
+  s.peak_force_error = judge.value_error(i, &SubImpact::peak_force, judge.least_force_error(i));
+  s.impulse_error = judge.value_error(i, &SubImpact::impulse);
+  s.max_indentation_error =
+      judge.value_error(i, &SubImpact::max_indentation, judge.least_indentation_error(i));
+  s.residual_indentation_error = judge.value_error(i, &SubImpact::residual_indentation);
+  s.striker_velocity_error = judge.value_error(i, &SubImpact::striker_velocity);
+  s.opening_error.reset();
+  if (s.opening) s.opening_error = judge.opening_error(i);
+  for (const auto error : errors) {
+    if (s.*error && !std::isfinite(*(s.*error))) (s.*error).reset();
   }
-}
-
-void add_errors(const Judge& judge, std::size_t i, ErrorSource source, SubImpact& s) {
-  const double start = judge.time_error(2 * i);
-  const double end = s.end ? judge.time_error(2 * i + 1) : 0.0;
-  add_error(s.start_error, start);
-  if (s.end) add_error(s.end_error, end);
-  if (auto* error = part_of(s, source)) add_error(*error, std::max(start, end));
-  add_error(s.peak_force_error,
-            judge.value_error(i, &SubImpact::peak_force, judge.least_force_error(i)));
-  add_error(s.impulse_error, judge.value_error(i, &SubImpact::impulse));
-  add_error(s.max_indentation_error,
-            judge.value_error(i, &SubImpact::max_indentation, judge.least_indentation_error(i)));
-  add_error(s.residual_indentation_error, judge.value_error(i, &SubImpact::residual_indentation));
-  add_error(s.striker_velocity_error, judge.value_error(i, &SubImpact::striker_velocity));
-  if (s.opening) add_error(s.opening_error, judge.opening_error(i));
 }
 
 std::string descriptions_of(std::span<const RunBeside> beside) {
@@ -75,45 +58,30 @@ std::string descriptions_of(std::span<const RunBeside> beside) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
-// The first of the sub-impacts and flights that are not certain.
-void set_first_unresolved(ErrorEstimate::Part& part, std::size_t i, const Reason& reason) {
-  if (part.first_unresolved) return;
-  part.first_unresolved = i;
-  part.reason = reason;
-}
-
-// `support_lost`: of set_support_errors().
-ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const RunBeside> beside,
-                               ErrorEstimate& estimate, double support_lost = HUGE_VAL) {
+// Judges sub-impacts and flights. `support_lost`: of set_support_errors().
+void judge_rows(const Case& input, Result& run, std::span<const RunBeside> beside,
+                ErrorEstimate& estimate, double support_lost = HUGE_VAL) {
   const Judge judge(input, run, beside);
-  ErrorEstimate::Part part;
-  part.source = beside.front().of.source;
-  part.refined_run = descriptions_of(beside);
   double strictness = 1.0;
   for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
     SubImpact& s = run.sub_impacts[i];
+    s.certain = true;
+    s.probability = 1.0;
     const SubImpact& before = run.sub_impacts[i > 0 ? i - 1 : 0];
     if (s.zone != before.zone || s.subzone != before.subzone) strictness = 1.0;
     if (s.start > support_lost) strictness = after_uncertain;
-    add_errors(judge, i, part.source, s);
+    set_errors(judge, i, s);
     if (const auto doubt = judge.doubt_of(i, strictness)) {
       strictness = after_uncertain;
       s.certain = false;
-      if (!s.doubt) s.doubt = doubt;
-      s.probability = std::min(*s.probability, judge.probability(i));
-      set_first_unresolved(part, i, *doubt);
+      s.doubt = doubt;
+      s.probability = judge.probability(i);
     }
     if (const auto flight = judge.doubt_of_flight(i)) {
-      set_first_unresolved(part, i + 1, *flight);
-      auto& flights = estimate.uncertain_flights;
-      if (!estimate.doubt_after(i)) {
-        flights.insert(std::ranges::lower_bound(flights, i, {}, &UncertainFlight::after),
-                       {i, *flight});
-      }
+      estimate.uncertain_flights.push_back({i, *flight});
     }
   }
-  if (run.closest_approach) add_error(run.closest_approach->error, judge.approach_error());
-  return part;
+  if (run.closest_approach) run.closest_approach->error = judge.approach_error();
 }
 
 // Whether it is proven for this run and for those beside it that no contact follows the last one,
@@ -148,12 +116,8 @@ ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
   here.sub_impacts = run.sub_impacts;
   here.near_misses = run.near_misses;
   here.used = run.used;
-  for (SubImpact& s : here.sub_impacts) {
-    s.certain = true;
-    s.probability = 1.0;
-  }
   ErrorEstimate none;
-  judge_part(input, here, {&other, 1}, none);
+  judge_rows(input, here, {&other, 1}, none);
   const auto n_same =
       std::ranges::count(here.sub_impacts, std::optional(true), &SubImpact::certain);
   const std::vector<SubImpact>& there = other.result.sub_impacts;
@@ -180,7 +144,7 @@ std::optional<Reason> tolerance_doubt(const SolverOptions& solver) {
 
 // Sub-impacts that mesh or steps do not show, whatever runs agree on. `about_mesh`: runs beside
 // have other meshes.
-void doubt_unresolved(const Case& input, bool about_mesh, Result& run, ErrorEstimate& estimate) {
+void doubt_unresolved(const Case& input, bool about_mesh, Result& run) {
   const std::optional<Reason> of_steps = tolerance_doubt(input.solver);
   const std::optional<Reason> of_mesh =
       about_mesh ? mesh_doubt(input, run.used) : std::optional<Reason>();
@@ -192,29 +156,6 @@ void doubt_unresolved(const Case& input, bool about_mesh, Result& run, ErrorEsti
     s.certain = false;
     s.doubt = doubt;
     s.probability = std::min(*s.probability, 0.5);
-    for (ErrorEstimate::Part& part : estimate.parts) {
-      const bool is_meant =
-          of_steps ? part.source == ErrorSource::time : includes_mesh(part.source);
-      if (!is_meant || part.first_unresolved.value_or(i + 1) <= i) continue;
-      part.first_unresolved = i;
-      part.reason = doubt;
-    }
-  }
-}
-
-void set_largest_errors(Result& run, ErrorEstimate& estimate) {
-  for (SubImpact& s : run.sub_impacts) {
-    if (!*s.certain) continue;
-    const auto include = [](double& largest, const std::optional<double>& error) {
-      largest = std::max(largest, error.value_or(0.0));
-    };
-    include(estimate.largest_error, s.start_error);
-    include(estimate.largest_error, s.end_error);
-    for (ErrorEstimate::Part& part : estimate.parts) {
-      const auto* error = part_of(s, part.source);
-      include(part.largest_error, error ? *error : s.start_error);
-      if (!error) include(part.largest_error, s.end_error);
-    }
   }
 }
 
@@ -244,34 +185,18 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
   if (beside.empty()) return;
   ErrorEstimate estimate;
   estimate.refined_run = descriptions_of(beside);
-  for (SubImpact& s : run.sub_impacts) {
-    s.certain = true;
-    s.probability = 1.0;
-    for (const auto error : errors) (s.*error).reset();
-  }
-  if (run.closest_approach) run.closest_approach->error.reset();
-  const double support_lost = set_support_errors(run, beside);
-  for (auto first = beside.begin(); first != beside.end();) {
-    const auto last = std::find_if(first, beside.end(), [&](const RunBeside& other) {
-      return other.of.source != first->of.source;
-    });
-    if (!first->of.of_rows) {
-      estimate.finer_meshes = finer_meshes(input, run, *first);
-    } else {
-      estimate.parts.push_back(judge_part(input, run, {first, last}, estimate, support_lost));
-      if (first->of.source == ErrorSource::mesh) set_mesh_limits(input, run, {first, last});
-    }
-    first = last;
-  }
-  for (SubImpact& s : run.sub_impacts) {
-    for (const auto error : errors) {
-      if (s.*error && !std::isfinite(*(s.*error))) (s.*error).reset();
-    }
-  }
-  doubt_unresolved(input, of_mesh(beside), run, estimate);
+  const auto others =
+      std::ranges::find(beside, false, [](auto& other) { return other.of.of_rows; });
+  judge_rows(input, run, {beside.begin(), others}, estimate, set_support_errors(run, beside));
+  if (others != beside.end()) estimate.finer_meshes = finer_meshes(input, run, *others);
+  doubt_unresolved(input, of_mesh(beside), run);
   find_first_unresolved(run, beside, estimate);
   run.contact_over = is_over(input, run, beside, estimate);
-  set_largest_errors(run, estimate);
+  for (const SubImpact& s : run.sub_impacts) {
+    if (!*s.certain) continue;
+    estimate.largest_error = std::max({estimate.largest_error, s.start_error.value_or(0.0),
+                                       s.end_error.value_or(0.0)});
+  }
   set_totals(input, run, beside, estimate);
   estimate.joined = judge_joined(input, run, beside);
   run.error_estimate = std::move(estimate);

@@ -36,9 +36,4 @@ double set_support_errors(Result& run, std::span<const RunBeside> beside);
 /// The number of sub-impacts of a run, and its error, from those of its zones.
 Total sum_of_counts(const std::vector<ZoneTotals>& zones);
 
-/// Sets starts and ends of sub-impacts in the limit of fine meshes, where those of the run and of
-/// the second and third run beside it, on coarser and coarser meshes, converge at the order of the
-/// mesh.
-void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> beside);
-
 }  // namespace subimpact

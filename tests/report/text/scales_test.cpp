@@ -43,7 +43,7 @@ Result scaled_sample(double scale, std::size_t n_certain) {
   for (SubImpact& s : result.sub_impacts) {
     s.peak_time = s.start + 1e-5;
     for (auto* time : {&s.start, &s.peak_time}) scaled(*time, scale);
-    for (auto* time : {&s.end, &s.start_error, &s.end_error, &s.error_mesh}) scaled(*time, scale);
+    for (auto* time : {&s.end, &s.start_error, &s.end_error}) scaled(*time, scale);
     for (auto* length : {&s.max_indentation, &s.residual_indentation}) scaled(*length, scale);
     for (auto* error :
          {&s.max_indentation_error, &s.residual_indentation_error, &s.opening_error, &s.opening}) {

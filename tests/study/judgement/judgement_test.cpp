@@ -180,7 +180,6 @@ TEST(AJudgement, OfRealRunsIsOneAccount) {
     const Result judged = simulate_judged(input, cases_beside(input), 2);
     expect_one_account(judged);
     expect_one_account(simulate_judged(input, cases_beside_on_given_mesh(input), 2));
-    expect_one_account(simulate_judged(input, cases_beside_by_part(input), 2));
   }
 }
 

@@ -13,8 +13,8 @@
 namespace subimpact {
 namespace {
 
-Result judged_by_part(const Case& input, const Progress& progress = {}) {
-  return simulate_judged(input, cases_beside_by_part(input), 2, progress);
+Result judged(const Case& input, const Progress& progress = {}) {
+  return simulate_judged(input, cases_beside(input), 2, progress);
 }
 
 Case scene(SectionKind section, double end_time, int segments = 201) {
@@ -78,7 +78,7 @@ Case far_finer(const Case& input) {
 TEST(StatedErrorsOfTimeAndMesh, CoverTheTrueOnesWithoutBeingVain) {
   Coverage coverage;
   for (const Case& input : ten_scenes()) {
-    coverage.judge(judged_by_part(input), simulate(far_finer(input)));
+    coverage.judge(judged(input), simulate(far_finer(input)));
   }
   coverage.expect(80, 8.0);
 }
@@ -89,7 +89,7 @@ TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
   Coverage coverage;
   for (const int elements : {120, 160, 200, 240}) {
     const Case input = on_elements(scene(SectionKind::exact, 0.84e-3), elements);
-    const Result result = judged_by_part(input);
+    const Result result = judged(input);
     const auto& here = result.sub_impacts;
     for (std::size_t i = 0; i < std::min<std::size_t>(here.size(), 9); ++i) {
       if (!*here[i].certain) continue;
@@ -102,40 +102,11 @@ TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
   coverage.expect(30, 16.0);
 }
 
-TEST(PartsOfErrors, AddUpAndNameTheirCompanions) {
-  Case input = scene(SectionKind::layers, 0.2e-3, 101);
-  const Result result = judged_by_part(input);
-  ASSERT_EQ(result.error_estimate->parts.size(), 3u);
-  expect_in(result.error_estimate->refined_run, "71 cells", "exact section");
-  const SubImpact& first = result.sub_impacts.front();
-  if (first.end_error) {
-    EXPECT_NEAR(*first.end_error, *first.error_time + *first.error_mesh + *first.error_layers,
-                1e-18);
-  }
-  input.model.section = SectionKind::elastic;
-  EXPECT_EQ(judged_by_part(input).error_estimate->parts.size(), 2u);
-}
-
 TEST(AMeshTooCoarse, NamesTheFirstSubImpactItIsNotCertainOf) {
   // 501 cells keep the first contact closed, which 1003 split in two.
-  const Result result = judged_by_part(scene(SectionKind::exact, 0.3e-3, 501));
-  ASSERT_TRUE(result.error_estimate->first_unresolved.has_value());
-  EXPECT_EQ(*result.error_estimate->first_unresolved, 0u);
-  const auto mesh = std::ranges::find(result.error_estimate->parts, ErrorSource::mesh,
-                                      &ErrorEstimate::Part::source);
-  ASSERT_NE(mesh, result.error_estimate->parts.end());
-  EXPECT_EQ(mesh->first_unresolved, result.error_estimate->first_unresolved);
-  EXPECT_TRUE(mesh->reason);
-}
-
-TEST(TimesExtrapolatedToTheMeshLimit, ComeMuchCloserToItThanTheMeshAsked) {
-  const Case input = scene(SectionKind::elastic, 0.25e-3, 501);
-  const Result result = judged_by_part(input);
-  const SubImpact& first = result.sub_impacts.front();
-  ASSERT_TRUE(first.end_mesh_limit.has_value());
-  constexpr double limit = 218.049244e-6;  // tests/data/mesh_limit_elastic.csv
-  EXPECT_LT(std::abs(*first.end_mesh_limit - limit), 0.1 * std::abs(*first.end - limit));
-  EXPECT_LT(std::abs(*first.end_mesh_limit - limit), *first.mesh_limit_error);
+  const Result result = judged(scene(SectionKind::exact, 0.3e-3, 501));
+  EXPECT_EQ(result.error_estimate->first_unresolved, 0u);
+  EXPECT_TRUE(result.error_estimate->reason);
 }
 
 TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
@@ -173,7 +144,7 @@ TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
 
 TEST(AStoppedRun, StopsItsCompanionsToo) {
   Case input = scene(SectionKind::elastic, 5e-3, 501);
-  const Result result = judged_by_part(input, [](double) { return false; });
+  const Result result = judged(input, [](double) { return false; });
   EXPECT_EQ(result.outcome.kind, OutcomeKind::stopped);
   EXPECT_FALSE(result.error_estimate.has_value());
 }
@@ -212,12 +183,11 @@ TEST(AMeshThatDoesNotResolveTheWavesOfAContact, FindsNothingCertainThoughCoarser
   for (const Case& input : {strip_of_elements(20), strip_of_elements(40), strip_of_cells(301)}) {
     const Result result = simulate_judged(input, cases_beside(input), 2);
     expect_nothing_is_certain(result);
-    EXPECT_EQ(result.error_estimate->parts.front().first_unresolved, std::size_t{0});
+    EXPECT_EQ(result.error_estimate->first_unresolved, std::size_t{0});
     const Reason& reason = *result.error_estimate->reason;
     using enum Reason::Kind;
     const auto shown = {heavy_part, unended_contact, short_contact, short_separation};
     EXPECT_NE(std::ranges::find(shown, reason.kind), shown.end()) << words_of(reason);
-    expect_nothing_is_certain(judged_by_part(input));
   }
 }
 

@@ -51,10 +51,6 @@ std::vector<CaseBeside> cases_beside_in_time(const Case& input);
 /// differences, or 0.7 times as many parts if the method is that already or the mesh has no cells.
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input);
 
-/// The cases that show each source of error by itself: "time", "mesh" (a third mesh, coarser by
-/// 0.5, shows whether times converge at its order) and, where the case has layers, "layers".
-std::vector<CaseBeside> cases_beside_by_part(const Case& input);
-
 /// Judges `run` by the runs beside it: sets certain, probability (the share of the runs that have
 /// the sub-impact), doubt and errors of its sub-impacts, and Result::error_estimate with the totals
 /// (docs/theory.md, "Error estimates"; measured in validation/truth/judgement). e: the largest gain
@@ -68,8 +64,7 @@ std::vector<CaseBeside> cases_beside_by_part(const Case& input);
 /// count 1.5 times. Near misses
 /// decide whether a flight is certain. Where only one run shows a part, factors are 1.5 times as
 /// large. Contact is over if this is proven for all runs that count for existence and the final
-/// velocities of their strikers differ by less than 2.5 % of the strike's. Several parts are judged
-/// one by one; errors are the sums.
+/// velocities of their strikers differ by less than 2.5 % of the strike's.
 void judge(const Case& input, Result& run, std::span<const RunBeside> beside);
 
 /// Number of threads for parallel runs; results do not depend on it.
