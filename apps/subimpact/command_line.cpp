@@ -61,27 +61,9 @@ std::string usage_error(const CLI::App* program, const CLI::Error& error) {
   return printable(fmt::format("{}: {}; see {} --help\n", command, message, command));
 }
 
-// "--error-bars off" is "--error-bars=off": its value may be left out, so that CLI11 takes none
-// after a blank.
-std::vector<std::string> joined(int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    const bool is_value = words[i] == "off" || words[i] == "all";
-    if (!is_value || words[i - 1] != "--error-bars") continue;
-    words[i - 1] += "=" + words[i];
-    words.erase(words.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  std::ranges::reverse(words);  // as CLI11 takes them
-  return words;
-}
-
 CLI::Option* added(CLI::App& to, const Option& option) {
   if (const auto* flag = std::get_if<bool*>(&option.value)) {
     return to.add_flag(option.name, **flag, option.meaning);
-  }
-  if (!option.if_bare.empty()) {
-    return to.add_flag(option.name + '{' + option.if_bare + '}',
-                       *std::get<std::string*>(option.value), option.meaning);
   }
   return std::visit([&](auto* value) { return to.add_option(option.name, *value, option.meaning); },
                     option.value);
@@ -219,7 +201,7 @@ int run_command_line(int argc, char** argv, const std::vector<Command>& commands
     return refused;
   }
   try {
-    program.parse(joined(argc, argv));
+    program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? done : refused;
   }

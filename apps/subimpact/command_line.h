@@ -28,7 +28,6 @@ struct Option {
   std::string needs = {};                  ///< an option without which it is refused
   List list = List::by_commas;
   bool is_required = false;
-  std::string if_bare = {};  ///< the value if none is given; empty: one is needed
 };
 
 struct Command {

@@ -138,7 +138,7 @@ Command report_command() {
       "Needs Python 3.9 or later with the package subimpact; pages of sweeps and of several runs "
       "need Matplotlib too.\n"
       "Examples:\n"
-      "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
+      "  subimpact run case.toml --out out/first --error-bars all --set output.sections=0.5,0.4\n"
       "  subimpact plot out/first; subimpact report out/first\n"
       "  subimpact report out/first out/second --out out/both\n"
       "  subimpact report out/first --measured force.csv --low-pass 20kHz\n"

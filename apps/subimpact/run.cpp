@@ -202,10 +202,8 @@ std::vector<Option> options_of(RunOptions& options) {
       "--error-bars", &options.error_bars,
       "By default all errors are estimated from runs on coarser meshes, which take up to "
       "one and a half times as long as the run itself; on a mesh that the case fixes, those of "
-      "sub-impacts are of the integration in time. --error-bars: of that mesh too. "
-      "--error-bars=off: no estimate"};
+      "sub-impacts are of the integration in time. all: of that mesh too; off: no estimate"};
   error_bars.choices = {"all", "off"};
-  error_bars.if_bare = "all";
   return options.input.of_case_and_method() +
          std::vector<Option>{
              of_directory(
@@ -241,7 +239,7 @@ Command run_command() {
       "  subimpact run case.toml --out out/tight --set solver.rtol=1e-10\n"
       "  subimpact run case.toml --within 1us\n"
       "  subimpact run case.toml --opening 1um\n"
-      "  subimpact run case.toml --error-bars\n"
+      "  subimpact run case.toml --error-bars all\n"
       "  subimpact run case.toml --method central-difference --set solver.step=1e-7\n"
       "  subimpact run case.toml --set beam.ends=free,free --set 'title=\"Second try\"'\n"
       "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "

@@ -38,7 +38,7 @@ TEST(ThePython, OfTheProgramFindsItsPackageAndTakesAllArguments) {
 
 TEST_F(ARun, KeepsSectionsWithErrorBarsToo) {
   run_in(directory, paper("run", {"time.end=1e-4", "model.segments=51", "output.sections=0.5"},
-                          {"--out", "here", "--error-bars"}));
+                          {"--out", "here", "--error-bars=all"}));
   EXPECT_TRUE(directory.has("here/sections.csv"));
 }
 

@@ -1,5 +1,7 @@
 #include "numerics/mass_solver.h"
 
+#include <Eigen/Cholesky>
+
 #include "banded_examples.h"
 #include "testing.h"
 

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "banded_examples.h"
+#include "numerics/dense.h"
 #include "subimpact/model/mesh/beam_mesh.h"
 
 namespace subimpact {
@@ -55,9 +56,7 @@ inline Eigen::MatrixXd stiffness_matrix(const BeamMesh& mesh, double bending_sti
 
 /// Squared natural frequencies of the elastic beam on a mesh, ascending, rigid modes included.
 inline Eigen::VectorXd squared_frequencies(const BeamMesh& mesh, double bending_stiffness) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      stiffness_matrix(mesh, bending_stiffness), dense(mesh.mass()), Eigen::EigenvaluesOnly);
-  return solver.eigenvalues();
+  return eigen_pairs(stiffness_matrix(mesh, bending_stiffness), dense(mesh.mass())).values;
 }
 
 inline std::vector<double> dense_frequencies(const BeamMesh& mesh, double bending_stiffness) {
@@ -68,7 +67,25 @@ inline std::vector<double> dense_frequencies(const BeamMesh& mesh, double bendin
 
 /// The highest natural frequency.
 inline double highest_of(const BeamMesh& mesh, double bending_stiffness) {
-  return std::sqrt(squared_frequencies(mesh, bending_stiffness).tail<1>()(0));
+  return std::sqrt(
+      largest_eigenvalue(stiffness_matrix(mesh, bending_stiffness), dense(mesh.mass())));
+}
+
+/// The x of least norm with K x = load, K symmetric and positive semidefinite; refined.
+inline Eigen::VectorXd solution(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& load) {
+  const auto [values, vectors] = eigen_pairs(stiffness);
+  const double zero = 1e-13 * values(values.size() - 1);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(load.size());
+  const auto extended = [](const auto& a) { return a.template cast<long double>(); };
+  for (int i = 0; i < 3; ++i) {
+    const auto rest = (extended(load) - extended(stiffness) * extended(x)).eval();
+    Eigen::VectorXd parts = vectors.transpose() * rest.template cast<double>();
+    for (Eigen::Index k = 0; k < parts.size(); ++k) {
+      parts(k) = values(k) > zero ? parts(k) / values(k) : 0.0;
+    }
+    x += vectors * parts;
+  }
+  return x;
 }
 
 }  // namespace subimpact

@@ -57,20 +57,6 @@ TEST(CellMesh, KeepsTheContractOfMeshes) {
   for (const CellMesh& mesh : all_meshes()) expect_mesh_contract(mesh, 1e-14);
 }
 
-TEST(CellMesh, BendingHasNoNetMoment) {
-  for (const CellMesh& mesh : meshes()) {
-    if (mesh.symmetric()) continue;  // the mirrored half's moment cancels this half's
-    const std::vector<double> moments = random_numbers(4, mesh.n_sections());
-    const std::vector<double> forces = bending_forces_of(mesh, moments);
-    double net_moment = 0.0, force_size = 0.0;
-    for (std::size_t i = 0; i < forces.size(); ++i) {
-      net_moment += forces[i] * static_cast<double>(i);
-      force_size += std::abs(forces[i]);
-    }
-    EXPECT_NEAR(net_moment, 0.0, 1e-14 * force_size * static_cast<double>(forces.size()));
-  }
-}
-
 TEST(CellMesh, RigidMotionsDoNotBend) {
   for (const CellMesh& mesh : meshes()) {
     std::vector<double> motion(mesh.n_unknowns());

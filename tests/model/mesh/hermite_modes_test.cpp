@@ -34,22 +34,11 @@ class ModesOfElements : public testing::TestWithParam<std::tuple<Chain, BeamTheo
     return {beam(), position, n_elements(), extent()};
   }
   double stiffness() const { return beam().bending_stiffness(); }
-  std::optional<NaturalModes> closed() const {
-    const Beam of = beam();
-    return hermite_chain_modes({n_elements(), of.length / static_cast<double>(n_elements()),
-                                of.mass_per_length(), of.rotary_inertia(), stiffness(), of.ends,
-                                extent() == Extent::half});
-  }
 };
-
-TEST_P(ModesOfElements, InClosedFormAreAsManyAsUnknowns) {
-  const std::optional<NaturalModes> modes = closed();
-  ASSERT_TRUE(modes);
-  EXPECT_EQ(modes->size(), mesh().n_unknowns());
-}
 
 TEST_P(ModesOfElements, HaveTheDenseDecompositionsFrequencies) {
   const HermiteMesh elements = mesh();
+  ASSERT_TRUE(elements.has_closed_modes());
   const NaturalModes found = elements.natural_modes(stiffness());
   const NaturalModes dense = dense_natural_modes(elements, stiffness());
   ASSERT_EQ(found.size(), dense.size());

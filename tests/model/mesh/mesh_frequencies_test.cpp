@@ -60,14 +60,14 @@ TEST(CellMesh, RayleighFrequenciesAreOfSecondOrderButForTheRotaryInertiaOfTheOut
     const CellMesh whole(beam, 0.5, n, Extent::whole, CellMesh::Spacing::whole);
     const double dx = beam.length / static_cast<double>(n);
     const std::vector<double> plain = dense_frequencies(mesh, beam.bending_stiffness());
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-        stiffness_matrix(whole, beam.bending_stiffness()), dense(whole.mass()));
+    const EigenPairs modes =
+        eigen_pairs(stiffness_matrix(whole, beam.bending_stiffness()), dense(whole.mass()));
     for (std::size_t mode = 0; mode < n_modes; ++mode) {
-      const double found = std::sqrt(modes.eigenvalues()(index(mode + 2)));
+      const double found = std::sqrt(modes.values(index(mode + 2)));
       const double added = (plain[mode + 2] - found) / exact[mode];
       of_whole[mode].add(static_cast<double>(n), std::abs(found / exact[mode] - 1.0));
       left_out[mode].add(static_cast<double>(n), added);
-      const Eigen::VectorXd shape = modes.eigenvectors().col(index(mode + 2));  // of modal mass 1
+      const Eigen::VectorXd shape = modes.vectors.col(index(mode + 2));  // of modal mass 1
       const double slope = (shape(1) - shape(0)) / dx;
       EXPECT_NEAR(added, 0.5 * beam.rotary_inertia() * dx * slope * slope, 0.02 * added);
     }
@@ -82,6 +82,9 @@ TEST_P(CellsOnSupports, HighestFrequencyIsAnUpperBoundForAnyNumberOfCells) {
     const CellMesh mesh(beam(), 0.5, n, Extent::whole);
     const double highest = highest_of(mesh, stiffness());
     EXPECT_GE(mesh.highest_frequency(stiffness()), highest * (1.0 - 1e-12)) << n << " cells";
+    if (n == 151 && beam().is_free()) {
+      EXPECT_LE(mesh.highest_frequency(stiffness()), highest * 1.001);
+    }
   }
 }
 
@@ -103,25 +106,6 @@ TEST_P(CellsOnSupports, HalfModelHasTheSymmetricModesOfTheWhole) {
   };
   EXPECT_EQ(n_rigid(whole), alike.is_free() ? 2 : 0);
   EXPECT_EQ(n_rigid(half), alike.is_free() ? 1 : 0);
-}
-
-class FreeCells : public testing::TestWithParam<BeamTheory> {};
-
-INSTANTIATE_TEST_SUITE_P(, FreeCells, both_theories, NamedAsPrinted{});
-
-TEST_P(FreeCells, HighestFrequencyIsWithinOneThousandthOfTheLargest) {
-  const Beam beam = paper_beam(GetParam());
-  for (const Extent extent : {Extent::whole, Extent::half}) {
-    const CellMesh mesh(beam, 0.5, 151, extent);
-    const double highest = highest_of(mesh, beam.bending_stiffness());
-    EXPECT_LE(mesh.highest_frequency(beam.bending_stiffness()), highest * 1.001);
-    EXPECT_GE(mesh.highest_frequency(beam.bending_stiffness()), highest * (1.0 - 1e-12));
-  }
-}
-
-TEST(CellMesh, HighestFrequencyOfThePapersGrid) {
-  const CellMesh mesh(paper_beam(), 0.5, 501, Extent::half);
-  EXPECT_NEAR(mesh.highest_frequency(paper_beam().bending_stiffness()), 7.043e6, 0.5e3);
 }
 
 class ElementsOnSupports : public testing::TestWithParam<Support> {

@@ -5,198 +5,114 @@
 #include "model/mesh/modal_mesh.h"
 #include "model/mesh/shear/spectral_mesh.h"
 #include "model/mesh/shear/timoshenko_mesh.h"
-#include "print.h"
 
 namespace subimpact {
 namespace {
 
+using Extent = BeamMesh::Extent;
+
+Beam shearing_beam(double share = 1.0, EndSupport ends = free_end) {  // of the published k G
+  Beam beam = paper_beam(BeamTheory::timoshenko, {ends, ends});
+  beam.poisson = 0.3;
+  beam.shear_coefficient = share * 0.85;
+  return beam;
+}
+
+// A mesh with modes in closed form, and what rounding may leave: of frequencies, relative; of the
+// equations of motion; of orthogonality.
 struct Chain {
-  std::size_t n_cells;
-  CellMesh::Extent extent;
-  BeamTheory theory;
-  CellMesh::Spacing spacing = CellMesh::Spacing::cells;
+  std::shared_ptr<const BeamMesh> mesh;
+  double stiffness, of_frequencies, of_motion, of_products;
 };
 
-std::ostream& operator<<(std::ostream& out, const Chain& chain) {
-  return out << chain.n_cells << (chain.extent == CellMesh::Extent::half ? " half " : " whole ")
-             << chain.theory << (chain.spacing == CellMesh::Spacing::points ? " points" : "");
+template <class Mesh, class... Details>
+Chain chain(const Beam& beam, double position, std::size_t n, Extent extent,
+            const std::array<double, 3>& rounding, const Details&... details) {
+  return {std::make_shared<Mesh>(beam, position, n, extent, details...), beam.bending_stiffness(),
+          rounding[0], rounding[1], rounding[2]};
 }
 
-class ModesOfCells : public testing::TestWithParam<Chain> {
- protected:
-  CellMesh mesh() const {
-    return {beam(), 0.5, GetParam().n_cells, GetParam().extent, GetParam().spacing};
+std::vector<Chain> chains() {
+  std::vector<Chain> all;
+  constexpr std::array of_cells{1e-12, 5e-13, 1e-12};
+  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+    const Beam beam = paper_beam(theory);
+    for (const std::size_t n : {5u, 101u, 501u}) {
+      for (const auto spacing : {CellMesh::Spacing::cells, CellMesh::Spacing::points}) {
+        all.push_back(chain<CellMesh>(beam, 0.5, n, Extent::half, of_cells, spacing));
+        if (n > 101) continue;
+        all.push_back(chain<CellMesh>(beam, 0.5, n + 1, Extent::whole, of_cells, spacing));
+      }
+    }
   }
-  Beam beam() const { return paper_beam(GetParam().theory); }
-};
-
-TEST_P(ModesOfCells, InClosedFormHaveTheDenseDecompositionsFrequencies) {
-  const CellMesh chain = mesh();
-  const NaturalModes closed = chain.natural_modes(beam().bending_stiffness());
-  const NaturalModes dense = dense_natural_modes(chain, beam().bending_stiffness());
-  EXPECT_EQ(closed.size(), chain.n_unknowns());
-  expect_near(closed.frequencies, dense.frequencies, 0.0, 1e-12);
-}
-
-TEST_P(ModesOfCells, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
-  expect_modes(mesh(), beam().bending_stiffness(), 5e-13);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    , ModesOfCells,
-    testing::Values(
-        Chain{5, CellMesh::Extent::half, BeamTheory::rayleigh},
-        Chain{6, CellMesh::Extent::whole, BeamTheory::rayleigh},
-        Chain{101, CellMesh::Extent::half, BeamTheory::rayleigh},
-        Chain{101, CellMesh::Extent::half, BeamTheory::euler_bernoulli},
-        Chain{100, CellMesh::Extent::whole, BeamTheory::rayleigh},
-        Chain{101, CellMesh::Extent::whole, BeamTheory::euler_bernoulli},
-        Chain{501, CellMesh::Extent::half, BeamTheory::rayleigh},
-        Chain{101, CellMesh::Extent::half, BeamTheory::rayleigh, CellMesh::Spacing::points},
-        Chain{20, CellMesh::Extent::whole, BeamTheory::rayleigh, CellMesh::Spacing::points},
-        Chain{501, CellMesh::Extent::whole, BeamTheory::euler_bernoulli}),
-    NamedAsPrinted{});
-
-struct ShearChain {
-  std::size_t n_cells;
-  TimoshenkoMesh::Extent extent;
-  double shear_share = 1.0;  // of the published beam's k G
-};
-
-std::ostream& operator<<(std::ostream& out, const ShearChain& chain) {
-  return out << chain.n_cells
-             << (chain.extent == TimoshenkoMesh::Extent::half ? " half " : " whole ")
-             << static_cast<int>(1000.0 * chain.shear_share) << " thousandths of k G";
-}
-
-class ModesOfCellsThatShear : public testing::TestWithParam<ShearChain> {
- protected:
-  TimoshenkoMesh mesh() const { return {beam(), 0.5, GetParam().n_cells, GetParam().extent}; }
-  Beam beam() const {
-    Beam beam = paper_beam(BeamTheory::timoshenko);
-    beam.poisson = 0.3;
-    beam.shear_coefficient = GetParam().shear_share * 0.85;
-    return beam;
-  }
-};
-
-TEST_P(ModesOfCellsThatShear, FromOneEquationHaveTheDenseDecompositionsFrequencies) {
-  const TimoshenkoMesh chain = mesh();
-  ASSERT_TRUE(chain.has_closed_modes());
-  const NaturalModes closed = chain.natural_modes(beam().bending_stiffness());
-  const NaturalModes dense = dense_natural_modes(chain, beam().bending_stiffness());
-  EXPECT_EQ(closed.size(), chain.n_unknowns());
-  expect_near(closed.frequencies, dense.frequencies, 0.0, 1e-11);
-}
-
-TEST_P(ModesOfCellsThatShear, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
   // Next to the top of a band an angle loses digits as n^2.
-  expect_modes(mesh(), beam().bending_stiffness(), 5e-11, 5e-11);
+  constexpr std::array that_shear{1e-11, 5e-11, 5e-11};
+  for (const auto& [n, share] : {std::pair(5u, 1.0), {101u, 1.0}, {101u, 0.01}, {101u, 50.0}}) {
+    for (const Extent extent : {Extent::half, Extent::whole}) {
+      all.push_back(chain<TimoshenkoMesh>(shearing_beam(share), 0.5, n, extent, that_shear));
+    }
+  }
+  all.push_back(chain<TimoshenkoMesh>(shearing_beam(), 0.5, 501, Extent::half, that_shear));
+  constexpr std::array of_elements{1e-12, 5e-12, 1e-12};
+  const auto add = [&](std::size_t n, double position, Extent extent, EndSupport ends = free_end,
+                       double share = 1.0) {
+    const Beam beam = shearing_beam(share, ends);
+    all.push_back(chain<SpectralMesh>(beam, position, n, extent, of_elements));
+  };
+  for (const EndSupport ends : {free_end, pinned}) {
+    add(2, 0.5, Extent::whole, ends);
+    add(3, 1.0 / 3.0, Extent::whole, ends);
+    add(50, 0.5, Extent::half, ends);
+    add(50, 0.3, Extent::whole, ends);
+  }
+  add(2, 0.5, Extent::half);
+  add(50, 0.0, Extent::whole);
+  add(50, 0.5, Extent::half, free_end, 0.01);
+  add(50, 0.5, Extent::whole, free_end, 50.0);
+  add(200, 0.5, Extent::half);
+  return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(, ModesOfCellsThatShear,
-                         testing::Values(ShearChain{5, TimoshenkoMesh::Extent::half},
-                                         ShearChain{5, TimoshenkoMesh::Extent::whole},
-                                         ShearChain{101, TimoshenkoMesh::Extent::half},
-                                         ShearChain{101, TimoshenkoMesh::Extent::whole},
-                                         ShearChain{101, TimoshenkoMesh::Extent::half, 0.01},
-                                         ShearChain{101, TimoshenkoMesh::Extent::whole, 50.0},
-                                         ShearChain{501, TimoshenkoMesh::Extent::half}),
-                         NamedAsPrinted{});
+TEST(NaturalModesInClosedForm, HaveTheDenseDecompositionsFrequencies) {
+  for (const Chain& each : chains()) {
+    SCOPED_TRACE(each.mesh->description());
+    EXPECT_TRUE(each.mesh->has_closed_modes());
+    const NaturalModes closed = each.mesh->natural_modes(each.stiffness);
+    EXPECT_EQ(closed.size(), each.mesh->n_unknowns());
+    expect_near(closed.frequencies, dense_natural_modes(*each.mesh, each.stiffness).frequencies,
+                0.0, each.of_frequencies);
+  }
+}
 
-// At this k G two waves of the half beam have the same frequency to the last digit.
-TEST(CellsThatShear, HaveOrthonormalModesWhereTwoWavesHaveOneFrequency) {
+TEST(NaturalModesInClosedForm, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
+  for (const Chain& each : chains()) {
+    SCOPED_TRACE(each.mesh->description());
+    expect_modes(*each.mesh, each.stiffness, each.of_motion, each.of_products);
+  }
+}
+
+// At these k G two waves of the half beam have the same frequency to the last digit.
+TEST(NaturalModesInClosedForm, AreOrthonormalWhereTwoWavesHaveOneFrequency) {
   for (const double apart : {0.0, 1e-12, 1e-10, 1e-8, 1e-6}) {
-    Beam beam = paper_beam(BeamTheory::timoshenko);
-    beam.poisson = 0.3;
-    beam.shear_coefficient = 0.85 * 1.0007773822171875 * (1.0 + apart);
-    const TimoshenkoMesh mesh(beam, 0.5, 501, TimoshenkoMesh::Extent::half);
     SCOPED_TRACE(apart);
-    expect_modes(mesh, beam.bending_stiffness(), 2e-10, 2e-10);
+    Beam beam = shearing_beam(1.0007773822171875 * (1.0 + apart));
+    const double stiffness = beam.bending_stiffness();
+    expect_modes(TimoshenkoMesh(beam, 0.5, 501, Extent::half), stiffness, 2e-10, 2e-10);
+    beam = shearing_beam(1.0177107203805 * (1.0 + apart));
+    const SpectralMesh elements(beam, 0.5, 100, Extent::half);
+    expect_modes(elements, stiffness, 1e-11, 1e-11);
+    expect_near(elements.natural_modes(stiffness).frequencies,
+                dense_natural_modes(elements, stiffness).frequencies, 0.0, 1e-12);
   }
 }
-
-struct SpectralChain {
-  std::size_t n_elements;
-  SpectralMesh::Extent extent;
-  EndSupport ends = EndSupport::free;
-  double shear_share = 1.0;  // of the published beam's k G
-  double position = 0.5;
-};
-
-std::ostream& operator<<(std::ostream& out, const SpectralChain& chain) {
-  return out << chain.n_elements
-             << (chain.extent == SpectralMesh::Extent::half ? " half " : " whole ") << chain.ends
-             << " struck at " << static_cast<int>(100.0 * chain.position) << " percent "
-             << static_cast<int>(1000.0 * chain.shear_share) << " thousandths of k G";
-}
-
-class ModesOfSpectralElements : public testing::TestWithParam<SpectralChain> {
- protected:
-  Beam beam() const {
-    Beam beam = paper_beam(BeamTheory::timoshenko);
-    beam.ends = {GetParam().ends, GetParam().ends};
-    beam.poisson = 0.3;
-    beam.shear_coefficient = GetParam().shear_share * 0.85;
-    return beam;
-  }
-  SpectralMesh mesh() const {
-    return {beam(), GetParam().position, GetParam().n_elements, GetParam().extent};
-  }
-};
-
-TEST_P(ModesOfSpectralElements, FromWavesHaveTheDenseDecompositionsFrequencies) {
-  const SpectralMesh chain = mesh();
-  ASSERT_TRUE(chain.has_closed_modes());
-  const NaturalModes closed = chain.natural_modes(beam().bending_stiffness());
-  const NaturalModes dense = dense_natural_modes(chain, beam().bending_stiffness());
-  EXPECT_EQ(closed.size(), chain.n_unknowns());
-  expect_near(closed.frequencies, dense.frequencies, 0.0, 1e-12);
-}
-
-TEST_P(ModesOfSpectralElements, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
-  expect_modes(mesh(), beam().bending_stiffness(), 5e-12, 1e-12);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    , ModesOfSpectralElements,
-    testing::Values(
-        SpectralChain{2, SpectralMesh::Extent::half}, SpectralChain{2, SpectralMesh::Extent::whole},
-        SpectralChain{3, SpectralMesh::Extent::whole, EndSupport::free, 1.0, 1.0 / 3.0},
-        SpectralChain{2, SpectralMesh::Extent::whole, EndSupport::pinned},
-        SpectralChain{3, SpectralMesh::Extent::whole, EndSupport::pinned, 1.0, 1.0 / 3.0},
-        SpectralChain{50, SpectralMesh::Extent::half},
-        SpectralChain{50, SpectralMesh::Extent::whole, EndSupport::free, 1.0, 0.0},
-        SpectralChain{51, SpectralMesh::Extent::whole, EndSupport::free, 1.0, 1.0 / 3.0},
-        SpectralChain{50, SpectralMesh::Extent::half, EndSupport::pinned},
-        SpectralChain{50, SpectralMesh::Extent::whole, EndSupport::pinned, 1.0, 0.3},
-        SpectralChain{50, SpectralMesh::Extent::half, EndSupport::free, 0.01},
-        SpectralChain{50, SpectralMesh::Extent::whole, EndSupport::free, 50.0},
-        SpectralChain{200, SpectralMesh::Extent::half}),
-    NamedAsPrinted{});
 
 TEST(SpectralElements, OfUnequalLengthsHaveNoModesFromWaves) {
-  Beam beam = paper_beam(BeamTheory::timoshenko);
-  beam.poisson = 0.3;
-  const SpectralMesh mesh(beam, 0.31, 50, SpectralMesh::Extent::whole);
+  const Beam beam = shearing_beam();
+  const SpectralMesh mesh(beam, 0.31, 50, Extent::whole);
   EXPECT_FALSE(mesh.has_closed_modes());
   EXPECT_EQ(mesh.natural_modes(beam.bending_stiffness()).frequencies,
             dense_natural_modes(mesh, beam.bending_stiffness()).frequencies);
   expect_modes(mesh, beam.bending_stiffness(), 1e-12, 1e-9);
-}
-
-// At this k G two waves of the half beam have the same frequency.
-TEST(SpectralElements, HaveOrthonormalModesWhereTwoWavesHaveOneFrequency) {
-  for (const double apart : {0.0, 1e-12, 1e-10, 1e-8, 1e-6}) {
-    Beam beam = paper_beam(BeamTheory::timoshenko);
-    beam.poisson = 0.3;
-    beam.shear_coefficient = 0.85 * 1.0177107203805 * (1.0 + apart);
-    const SpectralMesh mesh(beam, 0.5, 100, SpectralMesh::Extent::half);
-    SCOPED_TRACE(apart);
-    expect_modes(mesh, beam.bending_stiffness(), 1e-11, 1e-11);
-    expect_near(mesh.natural_modes(beam.bending_stiffness()).frequencies,
-                dense_natural_modes(mesh, beam.bending_stiffness()).frequencies, 0.0, 1e-12);
-  }
 }
 
 class ModalCoordinates : public testing::Test {

@@ -120,10 +120,9 @@ TEST(AFreeMesh, HasTheMomentOfMomentumOfARigidRotation) {
     const auto mesh = make_mesh(kind, beam, third, 33);
     const std::size_t n = mesh->n_unknowns();
     // The rotation x: the motion without curvature and shear that no translation is.
-    const Eigen::MatrixXd stiffness = stiffness_matrix(*mesh, 1.0);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness);
+    const Eigen::MatrixXd shapes = eigen_pairs(stiffness_matrix(*mesh, 1.0)).vectors;
     for (Eigen::Index k = 0; k < 2; ++k) {
-      const Eigen::VectorXd rigid = solver.eigenvectors().col(k);
+      const Eigen::VectorXd rigid = shapes.col(k);
       const double w0 = (*mesh->displacement_at(0.0))(entries(rigid));
       const double turn =
           ((*mesh->displacement_at(beam.length))(entries(rigid)) - w0) / beam.length;
@@ -153,14 +152,7 @@ Eigen::VectorXd at_rest(const BeamMesh& mesh, const Beam& beam,
   for (double& moment : moments) moment *= beam.bending_stiffness();
   Eigen::VectorXd load(index(mesh.n_unknowns()));
   mesh.bending_forces(moments, entries(load));
-  const Eigen::MatrixXd stiffness = stiffness_matrix(mesh, beam.bending_stiffness());
-  const auto decomposition = stiffness.completeOrthogonalDecomposition();
-  Eigen::VectorXd q = decomposition.solve(-load);
-  // Once more for what is left: the tip of a cantilever has some 1e-10 of rounding.
-  const auto extended = [](const auto& x) { return x.template cast<long double>(); };
-  const auto rest = (-extended(load) - extended(stiffness) * extended(q)).eval();
-  q += decomposition.solve(rest.template cast<double>().eval());
-  return q;
+  return solution(stiffness_matrix(mesh, beam.bending_stiffness()), -load);
 }
 
 double largest_difference(const BeamMesh& mesh, const Beam& beam,
@@ -255,7 +247,7 @@ TEST_P(Reactions, CarryAConstantForceAsInTextbooks) {
   constexpr double force = 10.0;
   Eigen::VectorXd load = Eigen::VectorXd::Zero(index(n));
   mesh->struck_point().add_to(entries(load), force);
-  const Eigen::VectorXd q = stiffness_matrix(*mesh, stiffness).ldlt().solve(load);
+  const Eigen::VectorXd q = solution(stiffness_matrix(*mesh, stiffness), load);
   StruckBeam beam = struck_beam_of(scene, mesh, SectionField(mesh->n_sections(), stiffness));
   State y(2 * (n + 1), 0.0);
   std::copy(q.data(), q.data() + n, y.begin());
