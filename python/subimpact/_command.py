@@ -44,7 +44,11 @@ class Display:
 
 
 def say(text: str) -> None:
-    print(printable(text), file=sys.stderr)
+    """A message on stderr, which may be gone with its terminal."""
+    try:
+        print(printable(text), file=sys.stderr)
+    except OSError:
+        pass
 
 
 def text_of_table(columns: Sequence[Sequence[str]], widths: Sequence[int], ends: Sequence[str]) -> str:

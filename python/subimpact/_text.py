@@ -53,3 +53,19 @@ def read_at_most(path: str | os.PathLike[str], most: int = MOST_BYTES) -> bytes:
             return file.read(most + 1)
     except ValueError as error:
         raise OSError(0, str(error)) from None
+
+
+def read_text(path: str | os.PathLike[str], what: str, kind: type[Exception], name: str = "") -> str:
+    """The text of a file of at most MOST_BYTES, `what` it is to be. Raises `kind`; a message begins with `name`."""
+    try:
+        content = read_at_most(path)
+    except IsADirectoryError:
+        raise kind(f"{name}is a directory; give the path of {what} (TOML)") from None
+    except OSError as error:
+        raise kind(f"{name}cannot be read ({error.strerror}); give the path of {what} (TOML)") from None
+    if len(content) > MOST_BYTES:
+        raise kind(f"{name}is larger than {MOST_BYTES} bytes; allowed: {what} (TOML), which has some 1000; give the path of one")
+    try:
+        return content.decode()
+    except UnicodeDecodeError:
+        raise kind(f"{name}is no UTF-8 text; allowed: {what} (TOML)") from None

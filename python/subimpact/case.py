@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._errors import CaseError
-from ._text import MOST_BYTES, is_unicode, printable, read_at_most
+from ._text import is_unicode, printable, read_text
 from ._toml import dotted, flat, text_of
 
 if TYPE_CHECKING:
@@ -83,28 +83,6 @@ def checked(key: str, value: object) -> Any:
         raise CaseError(f"{key} is {value!r}; allowed: {_KEYS[key].allowed}", key) from None
 
 
-def _text_of_file(path: str | os.PathLike[str], name: str) -> str:
-    try:
-        content = read_at_most(path)
-    except IsADirectoryError:
-        raise CaseError(
-            f"{name}: is a directory; give the case file itself, such as {name.rstrip('/')}/case.toml"
-        ) from None
-    except OSError as error:
-        raise CaseError(
-            f"{name}: cannot be read ({error.strerror}); give the path of a case file (TOML)"
-        ) from None
-    if len(content) > MOST_BYTES:
-        raise CaseError(
-            f"{name}: is larger than {MOST_BYTES} bytes; allowed: a case file (TOML), which has some "
-            "1000; give the path of one"
-        )
-    try:
-        return content.decode()
-    except UnicodeDecodeError:
-        raise CaseError(f"{name}: is no UTF-8 text; allowed: a case file (TOML)") from None
-
-
 class Case:
     """A case: a scene and how it is modelled, as values of keys such as "striker.velocity".
 
@@ -157,7 +135,7 @@ class Case:
         """The case of a TOML file, of at most 1,000,000 bytes. `overrides`: keys, values as texts, and where these are from."""
         name = printable(os.fsdecode(path))
         case = cls.__new__(cls)
-        case._begin(_text_of_file(path, name), name, overrides)
+        case._begin(read_text(path, "a case file", CaseError, f"{name}: "), name, overrides)
         case.check()
         return case
 

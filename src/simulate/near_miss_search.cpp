@@ -37,18 +37,19 @@ struct GapStep {
 
 }  // namespace
 
-void NearMissSearch::look_into_flight(const ObservedStep& step, const StruckBeam& beam) {
-  const auto around = step.around_largest();
-  if (!around) return;
+std::optional<IndentationStep> part_around(const ObservedStep& step, const StruckBeam& beam,
+                                           const std::optional<std::pair<double, double>>& times,
+                                           State& state) {
+  if (!times) return std::nullopt;
   IndentationStep part{};
-  std::tie(part.t0, part.t1) = *around;
-  step.state_at(part.t0, state_);
-  part.lambda0 = beam.indentation(state_);
-  part.rate0 = beam.indentation_rate(state_);
-  step.state_at(part.t1, state_);
-  part.lambda1 = beam.indentation(state_);
-  part.rate1 = beam.indentation_rate(state_);
-  look_into(step, beam, part, true);
+  std::tie(part.t0, part.t1) = *times;
+  step.state_at(part.t0, state);
+  part.lambda0 = beam.indentation(state);
+  part.rate0 = beam.indentation_rate(state);
+  step.state_at(part.t1, state);
+  part.lambda1 = beam.indentation(state);
+  part.rate1 = beam.indentation_rate(state);
+  return part;
 }
 
 void NearMissSearch::look_into(const ObservedStep& step, const StruckBeam& beam,
@@ -115,22 +116,18 @@ namespace {
 constexpr double accuracy = 1e-5;
 constexpr int most_halvings = 6;
 
-// Whether the indentation may fall and rise again between the ends of a step.
-bool may_turn(const IndentationStep& ends) {
-  if (ends.rate0 < 0.0 && ends.rate1 >= 0.0) return true;
-  if (ends.rate0 >= 0.0 && ends.rate1 < 0.0) return false;
-  return ends.length() * std::abs(ends.rate0 + ends.rate1) >
-         3.0 * std::abs(ends.lambda1 - ends.lambda0);
-}
-
 }  // namespace
 
 void LargestGap::follow(const ObservedStep& step, const StruckBeam& beam, double& largest) {
   const IndentationStep& ends = step.indentation();
-  largest = std::max(largest, beam.contact().residual_indentation() - ends.lambda1);
+  const double residual = beam.contact().residual_indentation();
+  largest = std::max(largest, residual - ends.lambda1);
   if (step.ends().event_free) {
-    look_into_flight(step, beam, largest);
-  } else if (may_turn(ends)) {
+    const auto part = part_around(step, beam, step.around_smallest(), state_);
+    if (!part) return;
+    largest = std::max({largest, residual - part->lambda0, residual - part->lambda1});
+    look_into(step, beam, *part, largest);
+  } else if (may_turn(ends, 1.0)) {
     look_into(step, beam, ends, largest);
   }
 }
@@ -155,24 +152,6 @@ void LargestGap::look_into(const ObservedStep& step, const StruckBeam& beam, Ind
     part = rate < 0.0 ? IndentationStep{t, part.t1, lambda, rate, part.lambda1, part.rate1}
                       : IndentationStep{part.t0, t, part.lambda0, part.rate0, lambda, rate};
   }
-}
-
-void LargestGap::look_into_flight(const ObservedStep& step, const StruckBeam& beam,
-                                  double& largest) {
-  const auto around = step.around_smallest();
-  if (!around) return;
-  const double residual = beam.contact().residual_indentation();
-  IndentationStep part{};
-  std::tie(part.t0, part.t1) = *around;
-  const auto read = [&](double t, double& lambda, double& rate) {
-    step.state_at(t, state_);
-    lambda = beam.indentation(state_);
-    rate = beam.indentation_rate(state_);
-    largest = std::max(largest, residual - lambda);
-  };
-  read(part.t0, part.lambda0, part.rate0);
-  read(part.t1, part.lambda1, part.rate1);
-  look_into(step, beam, part, largest);
 }
 
 }  // namespace subimpact

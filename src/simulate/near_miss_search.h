@@ -6,12 +6,27 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "simulate/loop/observed_step.h"
 #include "subimpact/simulate/records.h"
 
 namespace subimpact {
+
+/// Whether the indentation, times `sense`, may fall and rise again between the ends of a step.
+inline bool may_turn(const IndentationStep& ends, double sense) {
+  const bool falls = sense * ends.rate0 < 0.0;
+  const bool rises_then = sense * ends.rate1 >= 0.0;
+  if (falls == rises_then) return falls;
+  return ends.length() * std::abs(ends.rate0 + ends.rate1) >
+         3.0 * std::abs(ends.lambda1 - ends.lambda0);
+}
+
+/// The part of a step between two times, read off the trajectory; nothing if there are none.
+std::optional<IndentationStep> part_around(const ObservedStep& step, const StruckBeam& beam,
+                                           const std::optional<std::pair<double, double>>& times,
+                                           State& state);
 
 /// Finds the near misses of one contact or separation after the other, step by step
 /// (docs/theory.md, "Events"). Of each the nearest few are kept, in an array of fixed size.
@@ -31,8 +46,10 @@ class NearMissSearch {
     const IndentationStep& ends = step.indentation();
     farthest_ = std::max(farthest_, sense_ * ends.lambda1);
     if (step.ends().event_free) {
-      look_into_flight(step, beam);
-    } else if (may_turn(ends)) {
+      if (const auto part = part_around(step, beam, step.around_largest(), state_)) {
+        look_into(step, beam, *part, true);
+      }
+    } else if (may_turn(ends, sense_)) {
       look_into(step, beam, ends, refine);
     }
   }
@@ -47,16 +64,8 @@ class NearMissSearch {
  private:
   static constexpr std::size_t most_kept = 8;
 
-  bool may_turn(const IndentationStep& ends) const {
-    const bool falls = sense_ * ends.rate0 < 0.0;
-    const bool rises_then = sense_ * ends.rate1 >= 0.0;
-    if (falls == rises_then) return falls;
-    const double h = ends.length();
-    return h * std::abs(ends.rate0 + ends.rate1) > 3.0 * std::abs(ends.lambda1 - ends.lambda0);
-  }
   void look_into(const ObservedStep& step, const StruckBeam& beam, const IndentationStep& ends,
                  bool refine);
-  void look_into_flight(const ObservedStep& step, const StruckBeam& beam);
   void keep(const NearMiss& near_miss);
 
   NearMissKind kind_ = NearMissKind::closing;
@@ -81,7 +90,6 @@ class LargestGap {
  private:
   void look_into(const ObservedStep& step, const StruckBeam& beam, IndentationStep part,
                  double& largest);
-  void look_into_flight(const ObservedStep& step, const StruckBeam& beam, double& largest);
 
   bool of_trajectory_;
   State state_;  // within a step

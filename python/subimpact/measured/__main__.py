@@ -9,11 +9,11 @@ import os
 import sys
 from contextlib import closing
 from pathlib import Path
-from typing import NoReturn
 
 import matplotlib
 
 from .. import _core
+from .._command import Parser, say
 from .._errors import OutputError, ResultsError
 from .._text import path_text, printable
 from ..plot.directory import identity_of, save
@@ -24,11 +24,6 @@ from .units import value_in
 
 _DESCRIPTION = """Lays a measured force beside that of a run, prints how they differ, and writes measured.svg and
 measured.json. A file that states what it holds needs no option; for others the message names one."""
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        self.exit(2, f"subimpact: {printable(message)}\n")
 
 
 def _time(text: str) -> float:
@@ -58,7 +53,7 @@ def _gain(text: str) -> float | str:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(prog="subimpact.measured", description=_DESCRIPTION)
+    parser = Parser(prog="subimpact report", description=_DESCRIPTION)
     parser.add_argument("run", metavar="DIR", help="output directory of `subimpact run`")
     parser.add_argument("--measured", metavar="FILE", required=True, help="table of a measured force")
     parser.add_argument("--out", metavar="DIR", help="directory of measured.svg and measured.json; default: DIR/figures")
@@ -102,7 +97,7 @@ def main(arguments: list[str] | None = None) -> int:
         signal = read(measured, **options)
         alignment = align(read_results(run), signal, **how)
     except ResultsError as error:
-        print(f"subimpact: {printable(str(error))}", file=sys.stderr)
+        say(f"subimpact: {error}")
         return 2
     print(f"  {'read as':<18}  {printable('; '.join(signal.assumed))}")
     for answer in alignment.answers():
@@ -111,10 +106,10 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         _write(run, out or os.path.join(run, "figures"), alignment)
     except OSError as error:  # OutputError is one
-        print(printable(str(error)), file=sys.stderr)
+        say(str(error))
         return 3
     if alignment.doubt:
-        print(f"subimpact: warning: {printable(alignment.doubt)}", file=sys.stderr)
+        say(f"subimpact: warning: {alignment.doubt}")
     return 0
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from .. import _core
 from .._errors import CaseError, ResultsError
 from .._files import Files
+from .._toml import flat
 from ..case import Case, keys
 from ..plot import Absent, comparison, histograms, sweep_map
 from ..plot.sweeps import CHIEF, error_column
@@ -185,15 +186,8 @@ def _pair_words(pairs: Sequence[Pair], first: Sequence[tuple[float, float]], sec
     return words + "."
 
 
-def _flat(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    flat: dict[str, Any] = {}
-    for name, value in tables.items():
-        flat.update(_flat(value, f"{prefix}{name}.") if isinstance(value, dict) else {prefix + name: value})
-    return flat
-
-
 def _differing(summaries: Sequence[Mapping[str, Any]]) -> list[list[str]]:
-    cases = [_flat(summary["case"]) for summary in summaries]
+    cases = [flat(summary["case"]) for summary in summaries]
     units = summaries[0]["case_units"]
     return [[key, *("–" if case.get(key) is None else f"{case[key]} {units.get(key, '')}" for case in cases)]
             for key in cases[0] if any(case.get(key) != cases[0][key] for case in cases)]

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import matplotlib
 
-from .._command import Parser
+from .._command import Parser, say
 from .._errors import OutputError, ResultsError
 from .._text import printable
 from .directory import FORMATS, draw_directory
@@ -29,10 +29,6 @@ Exit status: 0 done; 2 bad command line, files that no run has written, or Pytho
 could not be drawn or written, the others are."""
 
 
-def _say(text: str) -> None:
-    print(printable(text), file=sys.stderr)
-
-
 def _print(text: str) -> bool:
     """Whether stdout takes the text; a reader who has left needs none."""
     try:
@@ -40,7 +36,7 @@ def _print(text: str) -> bool:
     except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # for what is flushed at the end
         if not isinstance(error, BrokenPipeError):
-            _say(f"subimpact: standard output cannot be written ({error.strerror}); free the disk or write the "
+            say(f"subimpact: standard output cannot be written ({error.strerror}); free the disk or write the "
                  "output elsewhere")
             return False
     return True
@@ -69,10 +65,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         drawn = draw_directory(options.directory, options.out, options.format, options.only, options.others)
     except (ResultsError, OutputError) as error:
-        _say(str(error))
+        say(str(error))
         return 2
     except ValueError as error:
-        _say(f"subimpact: --only {error}")
+        say(f"subimpact: --only {error}")
         return 2
     except KeyboardInterrupt:
         return 130
@@ -83,9 +79,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if not _print("".join(lines)):
         return 3
     for reason in drawn.left_out:
-        _say(f"subimpact: note: not drawn: {reason}")
+        say(f"subimpact: note: not drawn: {reason}")
     for failure in drawn.failed:
-        _say(failure)
+        say(failure)
     return 3 if drawn.failed else 0
 
 

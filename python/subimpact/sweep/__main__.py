@@ -8,9 +8,9 @@ import signal
 import sqlite3
 import sys
 from collections.abc import Sequence
-from typing import Any, NoReturn
+from typing import Any
 
-from .._command import Display
+from .._command import Display, Parser, say
 from .._errors import CaseError, PlanError, StoreError
 from .._text import printable
 from .plan import Plan
@@ -32,16 +32,7 @@ _MOST_DIGITS = 18
 
 
 def _say(text: str) -> None:
-    """A message on stderr, which may be gone with its terminal."""
-    try:
-        print(f"subimpact-sweep: {printable(text)}", file=sys.stderr)
-    except OSError:
-        pass
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        super().error(printable(message))
+    say(f"subimpact-sweep: {text}")
 
 
 def _part(text: str) -> tuple[int, int]:
@@ -56,7 +47,7 @@ def _part(text: str) -> tuple[int, int]:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
+    parser = Parser(
         prog="subimpact-sweep",
         description="Runs the cases of a plan and writes runs.csv and sub_impacts.csv.",
         epilog=_EXAMPLES,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -19,7 +18,7 @@ import numpy as np
 from .. import _core
 from .._checks import is_positive, is_whole, seconds
 from .._errors import CaseError, PlanError
-from .._text import MOST_BYTES, is_unicode, read_at_most
+from .._text import is_unicode, read_text
 from .._toml import DEEPEST, flat, is_too_deep
 from ..case import Case, as_case, checked, key_of
 
@@ -234,20 +233,9 @@ _TOO_DEEP = (
 
 def _read(path: Path) -> str:
     """The text of a plan: of a file, or of standard input by its name."""
-    try:
-        is_file = stat.S_ISREG(path.stat().st_mode) or str(path).startswith(("/dev/stdin", "/dev/fd/"))
-        content = read_at_most(path) if is_file else b""
-    except (OSError, ValueError) as error:
-        cause = error.strerror if isinstance(error, OSError) else error
-        raise PlanError(f"cannot be read ({cause}); give the path of a plan (TOML)") from None
-    if not is_file:
+    if os.path.lexists(path) and not (path.is_file() or str(path).startswith(("/dev/stdin", "/dev/fd/"))):
         raise PlanError("is no regular file; give the path of a plan (TOML)")
-    if len(content) > MOST_BYTES:
-        raise PlanError(f"is larger than {MOST_BYTES} bytes; allowed: a plan (TOML); give the path of one")
-    try:
-        return content.decode()
-    except UnicodeDecodeError:
-        raise PlanError("is no UTF-8 text; allowed: a plan (TOML)") from None
+    return read_text(path, "a plan", PlanError)
 
 
 def _points(keys: str | tuple[str, ...], values: Iterable[Any]) -> tuple[list[str], list[list[Any]]]:
