@@ -323,8 +323,7 @@ TEST_F(ARun, OfACaseThatLeavesItsModelOpenChoosesItAndTheCaseItWritesIsThatModel
             "contact.law = \"line\"");
   EXPECT_GT(run.at("body_errors").at("error").at("peak_force_N"), 0.0);
   directory.write("written.toml", directory.read("here/case.toml"));
-  run_in(directory,
-         {"run", "written.toml", "--out", "again", "--body-errors=off"});
+  run_in(directory, {"run", "written.toml", "--out", "again", "--body-errors=off"});
   const auto again = summary_in(directory.path / "again");
   EXPECT_TRUE(again.at("body_errors").is_null());
   EXPECT_EQ(again.at("model_choice"), "");

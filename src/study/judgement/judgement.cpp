@@ -194,8 +194,8 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
   run.contact_over = is_over(input, run, beside, estimate);
   for (const SubImpact& s : run.sub_impacts) {
     if (!*s.certain) continue;
-    estimate.largest_error = std::max({estimate.largest_error, s.start_error.value_or(0.0),
-                                       s.end_error.value_or(0.0)});
+    estimate.largest_error =
+        std::max({estimate.largest_error, s.start_error.value_or(0.0), s.end_error.value_or(0.0)});
   }
   set_totals(input, run, beside, estimate);
   estimate.joined = judge_joined(input, run, beside);
