@@ -77,8 +77,8 @@ TEST_F(ARun, IntoTheDirectoryOfItsCaseLeavesTheCaseAsItIs) {
 
 TEST(NewCase, OfEverySceneIsCommentedAndRuns) {
   const std::string listing = run_in(TemporaryDirectory(), {"new"}).output;
-  for (const char* scene :
-       {"hammer", "ball-drop", "cantilever", "stop", "repeated-strikes", "tube", "ensemble"}) {
+  for (const char* scene : {"hammer", "ball-drop", "cantilever", "stop", "repeated-strikes", "tube",
+                            "rollers", "ensemble"}) {
     const TemporaryDirectory directory;
     const Finished text = run_in(directory, {"new", scene});
     expect_in(text.output, "# ");

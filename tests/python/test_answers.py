@@ -9,7 +9,7 @@ import subimpact as si
 from conftest import README_STRIKE
 from subimpact.page.markup import in_print
 
-TEMPLATES = ("hammer", "ball-drop", "cantilever", "stop", "repeated-strikes", "tube", "ensemble")
+TEMPLATES = ("hammer", "ball-drop", "cantilever", "stop", "repeated-strikes", "tube", "rollers", "ensemble")
 
 
 def random_scene(seed):

@@ -15,7 +15,7 @@ import pytest
 import subimpact as si
 
 PAPER = Path(__file__).parents[2] / "validation/physics/paper/case.toml"
-TABLES = {"sub_impacts": "events.csv", "transitions": "transitions.csv", "history": "history.csv",
+TABLES = {"sub_impacts": "events.csv", "transitions": "transitions.csv", "supports": "supports.csv", "history": "history.csv",
           "sections": "sections.csv", "points": "points.csv", "shapes": "shapes.csv",
           "envelope": "envelope.csv", "strikes": "strikes.csv"}
 

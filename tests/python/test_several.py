@@ -119,7 +119,7 @@ def test_a_result_in_files_is_the_one_that_was_written(elastic, tmp_path):
     assert read.summary == result.summary and read.case == result.case
     for key in si.keys():
         assert read[key] == result[key], key
-    for table in ("sub_impacts", "transitions", "history", "sections", "points", "shapes", "envelope", "strikes"):
+    for table in ("sub_impacts", "transitions", "supports", "history", "sections", "points", "shapes", "envelope", "strikes"):
         one, other = getattr(result, table), getattr(read, table)
         assert one.dtype == other.dtype and len(one) == len(other) and not other.flags.writeable, table
     with pytest.raises(KeyError):
