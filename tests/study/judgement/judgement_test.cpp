@@ -2,6 +2,9 @@
 
 #include "subimpact/study/judgement/judgement.h"
 
+#include <cmath>
+#include <ctime>
+
 #include "one_account.h"
 #include "paper_run.h"
 #include "subimpact/study/judgement/match.h"
@@ -68,6 +71,36 @@ TEST(AJudgement, TakesErrorsButNoDoubtFromARunThatDoesNotCountForExistence) {
   beside.back().of.of_existence = true;
   judge(input, run, beside);
   EXPECT_FALSE(*run.sub_impacts[2].certain);
+}
+
+// Processor time (s) of judging so many contacts, each a zone with a near miss before and after its
+// end, by runs that lack the second half of them and have others instead.
+double seconds_of_judging(int n) {
+  const auto made = [n](double later) {
+    Result run = contacts(n);
+    for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
+      SubImpact& s = run.sub_impacts[i];
+      if (2 * i > run.sub_impacts.size()) s.start += later, *s.end += later;
+      s.zone = static_cast<int>(i) + 1;
+      run.near_misses.push_back({s.start + 50.0 * us, 1e-9, NearMissKind::opening});
+      run.near_misses.push_back({*s.end + 20.0 * us, 1e-9, NearMissKind::closing});
+    }
+    run.outcome.time = run.sub_impacts.back().start + 1e-3;
+    return run;
+  };
+  Result run = made(0.0);
+  const Result other = made(120.0 * us);
+  const std::clock_t start = std::clock();
+  run = judged(std::move(run), other);
+  EXPECT_EQ(run.error_estimate->zones.size(), static_cast<std::size_t>(n));
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+TEST(AJudgement, OfTwiceAsManyContactsTakesTwiceAsLong) {
+  double least = HUGE_VAL;
+  for (int k = 0; k < 3; ++k) least = std::min(least, seconds_of_judging(10'000));
+  const double most = seconds_of_judging(40'000);
+  EXPECT_LT(most, 4.0 * 1.6 * least + 0.05);
 }
 
 Result judged_by_near_and_far(Result run, const Result& near, const Result& far) {
