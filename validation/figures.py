@@ -2,7 +2,8 @@
 """Draws the figures of studies from their tables, with the Python package of the build.
 
     validation/figures.py NAME TABLE [FILE]     mesh, grazes, scatter or peers; FILE: without its ending
-    validation/figures.py stability DIR         critical_steps, stiff_contact and damping of a directory, in it
+    validation/figures.py stability DIR         critical_steps, stiff_contact, damping, missed_pairs and layers of a
+                                                directory, in it
     validation/figures.py hysteresis FILE       the law of bending of docs/theory.md
 """
 
@@ -148,6 +149,39 @@ def damping(tables, axes):
         panel.legend()
 
 
+@plot.figure([[0]], height=3.8)
+def missed_pairs(table, axes):
+    """Strikes wholly found, over the step: sub-impacts and separations that begin and end within one
+    step."""
+    step, n, shortest = 1e6 * table["step_s"], table["runs"][0], 1e6 * table["shortest_s"][0]
+    axes.semilogx(step, table["right_with_search"], "o-", label="pairs within a step looked for")
+    axes.semilogx(step, table["right_without"], "s-", label="ends of steps only")
+    axes.axvline(shortest, color=GREY, linestyle="--")
+    axes.annotate("shortest sub-impact or separation", (shortest, 0.03), (-4, 0), rotation=90, ha="right",
+                  xycoords=("data", "axes fraction"), textcoords="offset points", color="#606060", fontsize=8)
+    axes.set(xlabel="step, µs", ylabel=f"strikes (of {n:g}) wholly found", ylim=(0, 1.1 * n))
+    axes.xaxis.set_major_formatter("{x:g}")
+    legend_above(axes)
+
+
+@plot.figure([[0]], height=3.8)
+def layers(table, axes):
+    """Event times with layers compared with those of the exact section law. Hollow: some sub-impacts lost
+    or invented."""
+    n = table["layers"]
+    whole = (table["corresponding"] == table["sub_impacts"]) & (table["corresponding"] == table["exact_sub_impacts"])
+    axes.loglog(n, 1e6 * table["max_difference_s"][-1] * (n[-1] / n) ** 2, "--", color=GREY,
+                label="falling as 1/layers²")
+    for name, label, mark, colour in (("max_difference_s", "largest", "o", COLOURS[0]),
+                                      ("median_difference_s", "median", "s", COLOURS[1])):
+        axes.loglog(n[whole], 1e6 * table[name][whole], mark, color=colour, label=label)
+        axes.loglog(n[~whole], 1e6 * table[name][~whole], mark, color=colour, markerfacecolor="white")
+    axes.set(xlabel="layers", ylabel="event times, layers − exact, µs")
+    axes.set_xticks(n, [f"{k:g}" for k in n])
+    axes.minorticks_off()
+    legend_above(axes)
+
+
 def virgin(x):
     """Moment over that of first yield, of the curvature over that of first yield, in a rectangle."""
     return np.where(np.abs(x) <= 1, x, np.sign(x) * (1.5 - 0.5 / np.maximum(np.abs(x), 1) ** 2))
@@ -183,7 +217,7 @@ def hysteresis(_, axes):
 def main(name, source, target=None):
     if name == "stability":
         table = {file.stem: plot.read_table(file) for file in Path(source).glob("*.csv")}
-        for draw in (critical_steps, stiff_contact):
+        for draw in (critical_steps, stiff_contact, missed_pairs, layers):
             plot.save(draw(table[draw.__name__]), Path(source) / draw.__name__, ("svg",))
         plot.save(damping((table["damping"], table["bdf_growth"])), Path(source) / "damping", ("svg",))
         return

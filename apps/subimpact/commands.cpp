@@ -216,4 +216,11 @@ void check_methods(const Case& input, const std::vector<std::string>& methods) {
   for (const std::string& method : methods) settings_of(input, method);
 }
 
+void note_swept(const LoadedCase& loaded) {
+  for (const char* key : {"solver.rtol", "solver.step"}) {
+    if (!loaded.given.contain(key)) continue;
+    print_error("subimpact: note: {} has no effect here: the study sweeps it\n", key);
+  }
+}
+
 }  // namespace subimpact::app

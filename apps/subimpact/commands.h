@@ -114,6 +114,9 @@ inline std::string title_of(const Case& input) {
   return input.title.empty() ? "untitled case" : input.title;
 }
 
+/// Says which settings of a case have no effect in a study that sweeps them.
+void note_swept(const LoadedCase& loaded);
+
 /// What runs, and whether the program was asked to end.
 struct StudySession {
   InterruptListener listener;

@@ -73,6 +73,7 @@ int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCas
 int run_work_precision(WorkPrecisionCommand& command) {
   const LoadedCase loaded = command.input.load();
   print_doubts(loaded);
+  note_swept(loaded);
   if (command.directory.empty())
     command.directory = command.input.directory_with("-work-precision");
   return with_places(loaded, [&] {

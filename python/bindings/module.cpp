@@ -17,7 +17,7 @@ void translate(std::exception_ptr failure) {
   try {
     if (failure) std::rethrow_exception(failure);
   } catch (const InvalidCase& error) {
-    raise("CaseError", error.what(), error.key);
+    raise("CaseError", error.message, error.key);
   } catch (const Error& error) {
     const bool is_case = error.kind == ErrorKind::case_file;
     const bool is_results = error.kind == ErrorKind::results;

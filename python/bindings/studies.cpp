@@ -20,6 +20,7 @@
 #include "study/refinement/refinement.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
+#include "subimpact/report/studies.h"
 #include "subimpact/study/judgement/match.h"
 #include "subimpact/study/other_mesh.h"
 #include "subimpact/study/run_as_asked.h"
@@ -27,31 +28,62 @@
 namespace subimpact::python {
 namespace {
 
-std::string as_chosen(const LoadedCase& loaded, Jobs jobs) {
+// What a study of a case returns; KeyboardInterrupt after Ctrl-C.
+template <class Study>
+auto overseen(const LoadedCase& loaded, Study study) {
   Overseer overseer(py::none(), std::nullopt);
-  const Case chosen = [&] {
+  auto found = [&] {
     const py::gil_scoped_release released;
-    return with_places(loaded, [&] {
-      return case_as_chosen(loaded.value, loaded.given, jobs,
-                            [&overseer](double) { return overseer.goes_on(); });
-    });
+    return with_places(loaded, [&] { return study([&](auto...) { return overseer.goes_on(); }); });
   }();
   overseer.finish();
-  if (overseer.interrupted()) {
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    throw py::error_already_set();
-  }
-  return case_file_text(chosen);
+  if (!overseer.interrupted()) return found;
+  PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw py::error_already_set();
 }
 
-// At rtol 1e-13 or less. Where events would be interpolated within fixed steps, whose phase makes
-// times jump, the method is nystrom, or erk for a damped strike.
+std::string as_chosen(const LoadedCase& loaded, Jobs jobs) {
+  return overseen(loaded, [&](auto goes_on) {
+    return case_file_text(case_as_chosen(loaded.value, loaded.given, jobs, goes_on));
+  });
+}
+
+using Names = std::vector<std::string>;
+
+auto compared(const LoadedCase& loaded, const Names& methods) {
+  return overseen(loaded, [&](auto goes_on) {
+    const Comparison comparison = compare(loaded.value, methods, {}, goes_on);
+    return std::pair(comparison_csv(comparison), matches_csv(comparison));
+  });
+}
+
+std::string work_precision_of(const LoadedCase& loaded, const Names& methods, double seconds) {
+  return overseen(loaded, [&](auto goes_on) {
+    WorkPrecisionOptions options;
+    options.methods = methods;
+    options.point_seconds = seconds;
+    options.progress = goes_on;
+    return work_precision_csv({work_precision(loaded.value, options)});
+  });
+}
+
+std::string outcomes_of(const LoadedCase& loaded, const Names& methods, double seconds, Jobs jobs) {
+  return overseen(loaded, [&](auto goes_on) {
+    return outcomes_csv(outcome_map(loaded.value, methods, seconds, jobs, goes_on));
+  });
+}
+
+// At rtol 1e-13 or less. The method is nystrom, or erk for a damped strike, in place of erk, which
+// takes several times as long so near to rounding, and where events would be interpolated within
+// fixed steps, whose phase makes times jump.
 Case for_derivatives(const Case& input) {
   constexpr double tightest = 1e-13;
   Case base = input;
-  if (events_of(input) == EventHandling::interpolated) {
+  const Method possible = possible_method(input, Method::nystrom);
+  const bool is_dear = input.solver.method == Method::erk && possible != Method::erk;
+  if (is_dear || events_of(input) == EventHandling::interpolated) {
     base.solver = {};
-    base.solver.method = possible_method(input, Method::nystrom);
+    base.solver.method = possible;
   }
   base.solver.rtol = std::min(input.solver.rtol, tightest);
   base.accuracy.event_times.reset();
@@ -168,6 +200,9 @@ void bind_studies(py::module_& module) {
              [](const Finished& run) { return run.input.scene.bodies().velocity_scale(); });
   module.def("rounded", &rounded);
   module.def("in_si", &in_si);
+  module.def("compare", &compared);
+  module.def("work_precision", &work_precision_of);
+  module.def("stability", &outcomes_of);
   module.def("parsed_setting", [](const std::string& text) {
     const Override setting = parse_override(text);
     return std::tuple(setting.key, setting.value, setting.origin);

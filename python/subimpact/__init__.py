@@ -25,15 +25,16 @@ if TYPE_CHECKING:
     from ._errors import CaseError, OutputError, PlanError, ResultsError, StoreError
     from .case import Case, Key, Material, keys, materials
     from .derivatives import Sensitivity, sensitivity
+    from .methods import Comparison, compare, stability, work_precision
     from .predictability import Scatter, scatter
     from .result import Result, columns, read_results
     from .running import run
     from .sweep import Plan, sweep
 
 __all__ = [
-    "Case", "CaseError", "Key", "Material", "OutputError", "Plan", "PlanError", "Result", "ResultsError", "Scatter",
-    "Sensitivity", "StoreError", "__version__", "columns", "keys", "materials", "read_results", "run", "scatter", "sensitivity",
-    "sweep",
+    "Case", "CaseError", "Comparison", "Key", "Material", "OutputError", "Plan", "PlanError", "Result", "ResultsError",
+    "Scatter", "Sensitivity", "StoreError", "__version__", "columns", "compare", "keys", "materials", "read_results", "run",
+    "scatter", "sensitivity", "stability", "sweep", "work_precision",
 ]
 
 _PLACES = {name: module for module, names in {
@@ -41,6 +42,7 @@ _PLACES = {name: module for module, names in {
     "_errors": "CaseError OutputError PlanError ResultsError StoreError",
     "case": "Case Key Material keys materials",
     "derivatives": "Sensitivity sensitivity",
+    "methods": "Comparison compare stability work_precision",
     "predictability": "Scatter scatter",
     "result": "Result columns read_results",
     "running": "run",

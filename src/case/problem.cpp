@@ -160,6 +160,8 @@ Problem problem_of(const Case& given) {
     problem.restitution_velocity = input.scene.bodies().velocity_scale();
   }
   problem.check_contact_law = input.parts.contact_law != nullptr;
+  problem.check_mesh = input.parts.mesh != nullptr;
+  problem.integrator = input.parts.integrator;
   problem.may_yield = may_yield(input);
   problem.start = input.parts.start;
   problem.at_rest = input.at_rest;

@@ -19,14 +19,9 @@ namespace {
 template <auto number>
 constexpr auto errors = [](const auto& row) { return row.errors.*number; };
 
-template <class Row>
-StabilityPart part_of(const char* name, const StudyColumns<Row>& columns,
-                      const std::vector<Row>& rows) {
-  return {printed_table(columns, rows),
-          {{name + std::string(".csv"), csv_text(columns_in_file(columns), rows)}}};
-}
+}  // namespace
 
-std::string map_text(const OutcomeMap& map) {
+std::string outcome_table(const OutcomeMap& map) {
   constexpr std::string_view letters = "+wiUFr.";  // in the order of verdicts
   std::string text = fmt::format(
       "reference: {}; {} up to {:.3f} us\n"
@@ -56,12 +51,9 @@ std::string map_text(const OutcomeMap& map) {
   return text + '\n';
 }
 
-}  // namespace
-
-StabilityPart part_of(const OutcomeMap& map) {
+std::string outcomes_csv(const OutcomeMap& map) {
   const auto if_completed = [](const OutcomePoint& point, double value) {
-    const bool completed = point.verdict == Verdict::right || point.verdict == Verdict::wrong_count;
-    return completed ? std::optional(value) : std::nullopt;
+    return point.has_errors() ? std::optional(value) : std::nullopt;
   };
   const Columns<OutcomePoint> columns = {
       {"group",
@@ -78,44 +70,7 @@ StabilityPart part_of(const OutcomeMap& map) {
       {"max_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.maximum); }},
       {"energy_error", [=](const OutcomePoint& p) { return if_completed(p, p.energy_error); }},
       {"message", &OutcomePoint::message}};
-  return {map_text(map), {{"outcomes.csv", csv_text(columns, map.points)}}};
-}
-
-StabilityPart part_of(const std::vector<MissedPairs>& rows) {
-  using Row = MissedPairs;
-  const StudyColumns<Row> columns = {
-      {"step_s", &Row::step, {"step, us", ">9", ".3g", us}},
-      {"runs", &Row::n_runs},
-      {"right_with_search", &Row::right_with_search, {"all found, pairs looked for", ">28"}},
-      {"right_without", &Row::right_without, {"all found, ends of steps only", ">28"}},
-      {"shortest_s", &Row::shortest}};
-  StabilityPart part = part_of("missed_pairs", columns, rows);
-  part.text =
-      fmt::format("{}; shortest sub-impact or separation {:.3g} us\n{}",
-                  counted(rows.at(0).n_runs, "strike"), rows.at(0).shortest * us, part.text);
-  return part;
-}
-
-StabilityPart part_of(const LayerStudy& study) {
-  const auto first_unmatched = [](const LayerPoint& p) {
-    return fmt::format(" {}", p.errors.unmatched ? p.errors.unmatched->description : "");
-  };
-  const StudyColumns<LayerPoint> columns = {
-      {"layers", &LayerPoint::layers, {"layers", ">7"}},
-      {"sub_impacts", errors<&EventErrors::n_found>, {"sub-impacts", ">11"}},
-      {"exact_sub_impacts", errors<&EventErrors::n_reference>},
-      {"corresponding", errors<&EventErrors::n_corresponding>, {"correspond", ">12"}},
-      {"median_difference_s", errors<&EventErrors::median>, {"median, us", ">14", ".3e", us}},
-      {"max_difference_s", errors<&EventErrors::maximum>, {"largest, us", ">12", ".3e", us}},
-      {"", first_unmatched, {" ", "<"}}};
-  StabilityPart part = part_of("layers", columns, study.points);
-  part.text.insert(printed_heading(columns).size(),
-                   fmt::format("{:>7} {:>11}\n", "exact", study.exact.sub_impacts.size()));
-  return part;
-}
-
-void write(const std::filesystem::path& directory, const StabilityPart& part) {
-  for (const auto& [name, content] : part.tables) write_file(directory / name, content);
+  return csv_text(columns, map.points);
 }
 
 namespace {
@@ -123,12 +78,17 @@ namespace {
 struct Point {
   std::string label;  // of the case
   Trial trial;
+  double reference_error = 0.0;
 };
 
 template <auto... members>
 constexpr auto of_trial = member<&Point::trial, members...>;
 template <auto found>
 constexpr auto trial_errors = of_trial<&Trial::errors, found>;
+template <double EventErrors::*error>
+constexpr auto known_error = [](const Point& row) {
+  return row.trial.has_errors() ? std::optional(row.trial.errors.*error) : std::nullopt;
+};
 template <auto count>
 constexpr auto work = of_trial<&Trial::work, count>;
 
@@ -136,9 +96,7 @@ bool has_run(const Point& row) {
   return row.trial.verdict != Verdict::not_run && row.trial.verdict != Verdict::refused;
 }
 
-bool has_errors(const Point& row) {
-  return row.trial.verdict == Verdict::right || row.trial.verdict == Verdict::wrong_count;
-}
+bool has_errors(const Point& row) { return row.trial.has_errors(); }
 
 std::string correspondence(const Point& row) {
   return fmt::format("{:>4}/{:<4}", row.trial.errors.n_corresponding, row.trial.errors.n_reference);
@@ -168,15 +126,16 @@ const StudyColumns<Point>& point_columns() {
       {"", correspondence, {"corre-\nspond", ">9"}, has_errors},
       {"first_odd_s", odd(&UnmatchedSubImpact::start)},
       {"odd_duration_s", odd(&UnmatchedSubImpact::duration)},
-      {"median_error_s", trial_errors<&EventErrors::median>, time("times,\nmedian us"), has_errors},
-      {"max_error_s", trial_errors<&EventErrors::maximum>, time("times,\nmax us"), has_errors},
-      {"first_error_s", trial_errors<&EventErrors::first>},
-      {"last_error_s", trial_errors<&EventErrors::last>},
-      {"peak_force_error", trial_errors<&EventErrors::peak_force>, share("peaks,\nmax rel."),
-       has_errors},
-      {"striker_velocity_error", trial_errors<&EventErrors::striker_velocity>,
-       share("striker,\nrel."), has_errors},
-      {"beam_velocity_error", trial_errors<&EventErrors::beam_velocity>},
+      {"median_error_s", known_error<&EventErrors::median>, time("times,\nmedian us")},
+      {"max_error_s", known_error<&EventErrors::maximum>, time("times,\nmax us")},
+      {"reference_error_s", &Point::reference_error},
+      {"observed_order", of_trial<&Trial::order>, {"order", ">6", ".1f"}},
+      {"first_error_s", known_error<&EventErrors::first>},
+      {"last_error_s", known_error<&EventErrors::last>},
+      {"peak_force_error", known_error<&EventErrors::peak_force>, share("peaks,\nmax rel.")},
+      {"striker_velocity_error", known_error<&EventErrors::striker_velocity>,
+       share("striker,\nrel.")},
+      {"beam_velocity_error", known_error<&EventErrors::beam_velocity>},
       {"wall_s", of_trial<&Trial::seconds>},
       {"", wall_time, {"wall\ntime", ">10"}, has_run},
       {"repeats", of_trial<&Trial::repeats>},
@@ -195,6 +154,36 @@ const StudyColumns<Point>& point_columns() {
 std::string setting_text(const Trial& point) {
   return fmt::format("{} at {}: {}, largest error {:.1e} us", point.setting.method,
                      point.setting.text(), duration_text(point.seconds), point.errors.maximum * us);
+}
+
+// Why an order is bounded; nothing of OrderBound::none.
+std::string bound_text(const MethodOrder& order) {
+  switch (order.bound) {
+    case OrderBound::contact:
+      return fmt::format("the force rises as lambda^{:.4g} from each touch", *order.most - 1.0);
+    case OrderBound::interpolation:
+      return "events are interpolated within steps";
+    case OrderBound::library:
+      return "events lie on the library's dense output";
+    case OrderBound::sections:
+      return "sections begin and cease to flow within steps";
+    default:
+      return {};
+  }
+}
+
+std::string order_text(const WorkPrecision& study) {
+  if (study.orders.empty()) return {};
+  const auto whole = [](const MethodOrder& order) {
+    return order.smooth > 0 ? std::optional(order.smooth) : std::nullopt;
+  };
+  const StudyColumns<MethodOrder> columns = {
+      {"", &MethodOrder::method, {"orders at fixed steps", "<22"}},
+      {"", whole, {"where forces\nare smooth", ">12"}},
+      {"", &MethodOrder::most, {"at most\nhere", ">8", ".3g"}},
+      {"", &MethodOrder::observed, {"observed", ">8", ".2f"}},
+      {"", [](const MethodOrder& order) { return " " + bound_text(order); }, {" ", "<"}}};
+  return '\n' + printed_table(columns, study.orders);
 }
 
 }  // namespace
@@ -220,14 +209,19 @@ std::string work_precision_table(const WorkPrecision& study) {
                         *growth);
   }
   text += '\n' + printed_heading(point_columns());
-  std::string method, messages;
+  std::string messages;
+  const Setting* before = nullptr;
   for (const Trial& point : study.points) {
-    if (!method.empty() && point.setting.method != method) text += '\n';
-    method = point.setting.method;
+    const Setting& setting = point.setting;
+    const bool goes_on = before == nullptr || (before->method == setting.method &&
+                                               before->fixed_step == setting.fixed_step);
+    if (!goes_on) text += '\n';
+    before = &setting;
     text += printed_row(point_columns(), {{}, point});
     if (point.message.empty()) continue;
-    messages += fmt::format("{} at {}: {}\n", method, point.setting.text(), point.message);
+    messages += fmt::format("{} at {}: {}\n", setting.method, setting.text(), point.message);
   }
+  text += order_text(study);
   return messages.empty() ? text : text + '\n' + messages;
 }
 
@@ -247,7 +241,9 @@ std::string recommendation_text(const std::vector<Recommendation>& recommendatio
 std::string work_precision_csv(const std::vector<WorkPrecision>& studies) {
   std::vector<Point> rows;
   for (const WorkPrecision& study : studies) {
-    for (const Trial& point : study.points) rows.push_back({study.label, point});
+    for (const Trial& point : study.points) {
+      rows.push_back({study.label, point, study.reference.error});
+    }
   }
   return csv_text(columns_in_file(point_columns()), rows);
 }

@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -65,6 +65,19 @@ void warn_of_short_contacts(const Recorder& recorder, const ResolvedSettings& us
                   *std::min_element(steps.begin(), steps.end())));
 }
 
+// A tolerance that numbers of 16 digits cannot meet costs steps and gains nothing.
+void warn_of_rounding(const SolverOptions& solver, const StruckBeam& beam, const State& y,
+                      const ResolvedSettings& used, Result& result) {
+  const double rounding = beam.displacement_rounding(y);
+  if (used.step || used.position_tolerance >= rounding) return;
+  result.warnings.push_back(fmt::format(
+      "solver.rtol = {:.1e} asks for displacements within {:.1e} m, and the numbers that hold them "
+      "at the end of the run are good to {:.1e} m: events are known to {:.1e} us at best, however "
+      "small it is, and a smaller one takes more steps; use {:.0e}",
+      solver.rtol, used.position_tolerance, rounding, us * rounding / beam.scales().velocity,
+      solver.rtol * rounding / used.position_tolerance));
+}
+
 void count_work(const Integrator& integrator, const StruckBeam& beam, const EventLoop& loop,
                 Work& work) {
   const WorkCounts counts = integrator.work();
@@ -128,11 +141,23 @@ void judge_end(Audit& audit, const EventLoop& loop, Outcome& outcome) {
   }
 }
 
+// What of a run is a caller's own.
+std::string own_parts(const RunParts& parts) {
+  std::vector<std::string_view> own;
+  if (parts.problem.check_mesh) own.emplace_back("mesh");
+  if (parts.problem.check_contact_law) own.emplace_back("contact law");
+  if (parts.given.solver.method == Method::own) own.emplace_back("integrator");
+  return fmt::format("{}", fmt::join(own, " and "));
+}
+
 // Adds a remedy to the message, if the integrator could not continue or a check failed.
 void add_remedy(Outcome& outcome, const RunParts& parts) {
   const std::optional<double>& step = parts.settings.step;
   const bool failed = outcome.kind == OutcomeKind::solver_failed;
-  if (failed) {
+  if (const std::string own = own_parts(parts); !own.empty() && (failed || outcome.first_failure)) {
+    outcome.message += fmt::format(
+        "; check the {} of your own first: samples before the run showed no broken rule", own);
+  } else if (failed) {
     outcome.message += parts.given.solver.step
                            ? "; use a smaller solver.step or another solver.method"
                            : "; use a larger solver.rtol or another solver.method";
@@ -154,8 +179,9 @@ std::optional<std::string> rule_broken_by_law(const RunParts& parts) {
   const double speed = parts.problem.bodies().velocity_scale();
   const double deepest =
       law.indentation_at(std::max(parts.settings.initial_energy, 0.5 * mass * speed * speed));
-  return broken_rule(law,
-                     std::min({deepest, parts.problem.beam.height(), law.largest_indentation()}));
+  const double most = std::min(parts.problem.beam.height(), law.largest_indentation());
+  // NaN of a law that gives no energy to compare with.
+  return broken_rule(law, deepest < most && deepest > 0.0 ? deepest : most);
 }
 
 }  // namespace
@@ -262,6 +288,7 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
     result.rests_since = contacts.back().start;
   }
   warn_of_short_contacts(recorder, used, result);
+  warn_of_rounding(parts.given.solver, beam, loop.state(), used, result);
   join_sub_impacts(result.sub_impacts, output.opening);
   assign_zones(result.sub_impacts, output.zone_gap * used.first_period,
                output.subzone_gap * used.first_period);

@@ -4,11 +4,22 @@
 #include <cmath>
 #include <numeric>
 
+#include "simulate/loop/observed_step.h"
 #include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
 #include "system/readings/accounts.h"
 
 namespace subimpact {
+
+double StepView::start() const { return step_.t0(); }
+double StepView::end() const { return step_.t1(); }
+RunView StepView::at(double time) const {
+  SectionCorrection correction;
+  if (time <= start()) return {start(), step_.y0(), beam_};
+  if (time >= end()) return {end(), step_.y1(), beam_};
+  step_.corrected_state_at(time, state_, correction);
+  return {time, state_, beam_};
+}
 
 PointMotion RunView::striker() const {
   return {Accounts(beam_).displacements(state_).striker, state_.back()};

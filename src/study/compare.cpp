@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include <algorithm>
 
 #include "case/problem.h"
 #include "study/method_choice.h"
@@ -14,13 +14,16 @@ namespace {
 
 constexpr double reference_tolerance = 1e-11;
 
-// Nothing can be compared with a reference that failed.
-void require_completed(const Result& reference) {
-  const Outcome& outcome = reference.outcome;
-  if (outcome.completed() || outcome.kind == OutcomeKind::stopped) return;
-  throw std::runtime_error(fmt::format(
-      "the reference of the comparison (nystrom at rtol {:.0e}) ended {} at {:.6g} us: {}",
-      reference_tolerance, to_string(outcome.kind), 1e6 * outcome.time, outcome.message));
+// A setting that no method of the list has.
+void refuse_idle(const Case& input, const std::vector<ComparedRun>& runs) {
+  const std::optional<int>& order = input.solver.max_order;
+  const bool is_used = std::ranges::any_of(
+      runs, [](const ComparedRun& run) { return run.input.solver.max_order.has_value(); });
+  if (!order || is_used || runs.empty()) return;
+  throw InvalidCase("solver.max_order",
+                    fmt::format("is {}, but no method of the comparison has an order to choose; "
+                                "leave it out, or compare adams or bdf",
+                                *order));
 }
 
 }  // namespace
@@ -33,30 +36,25 @@ Comparison compare(const Case& input, const std::vector<std::string>& methods,
   for (const std::string& name : methods) {
     ComparedRun& run = runs.emplace_back();
     run.input = with_method(input, name);
-    const std::optional<double> step = resolve(run.input).settings().step;
-    run.setting = {name, step.has_value(), step.value_or(run.input.solver.rtol)};
+    const ResolvedSettings used = resolve(run.input).settings();
+    run.setting = {name, used.step.has_value(), used.step.value_or(run.input.solver.rtol)};
   }
+  refuse_idle(input, runs);
   Comparison comparison;
-  Reference& reference = comparison.reference;
-  reference.input = with_method(input, "nystrom");
-  reference.input.solver.step.reset();
-  reference.input.solver.rtol = reference_tolerance;
   const Progress watched = [&](double time) {
     if (progress && !progress(time)) comparison.interrupted = true;
     return !comparison.interrupted;
   };
   if (announce) announce("reference");
-  reference.result =
-      simulate_judged(reference.input, cases_beside_in_time(reference.input), 1, watched);
-  require_completed(reference.result);
-  reference.sub_impacts = reference.result.sub_impacts;
+  comparison.reference = run_reference(input, reference_tolerance, watched);
+  const Reference& reference = comparison.reference;
   for (ComparedRun& run : runs) {
     if (announce) announce(run.setting.method);
     if (!watched(0.0)) break;  // runs of few steps do not look
     run.result = run_trial(run, reference, watched);
     if (comparison.interrupted) break;
     run.pairs = match_sub_impacts(reference.sub_impacts, run.result.sub_impacts);
-    if (run.verdict == Verdict::right) run.message = "every sub-impact corresponds";
+    if (run.message.empty()) run.message = "every sub-impact corresponds";
     comparison.runs.push_back(std::move(run));
   }
   return comparison;

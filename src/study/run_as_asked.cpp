@@ -108,7 +108,7 @@ WithinRun strike_repeatedly(Case next, const GivenKeys& given, RunRequest& reque
     } catch (const InvalidCase& error) {
       if (!run) throw;
       run->result.outcome.kind = OutcomeKind::left_validity;
-      run->result.outcome.message = fmt::format("strike {}: {} {}", k, error.key, error.what());
+      run->result.outcome.message = fmt::format("strike {}: {}", k, error.what());
       break;
     }
     if (!run->result.outcome.completed()) break;

@@ -19,10 +19,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double reference_error = 1e-10;  // s
 constexpr double angles[] = {0.25, 0.5, 1.0, 1.9, 2.1, 3.0, 4.0, 5.8, 6.2, 8.0, 16.0, 32.0, 64.0};
 constexpr double tolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
-constexpr double steps_us[] = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
-constexpr int n_speeds = 40;
-constexpr double tolerance_of_layers = 1e-10;
-constexpr int layer_counts[] = {10, 20, 40, 80, 160, 320, 640};
 
 /// A row of the map: a method against fixed steps, or against tolerances.
 struct MapRow {
@@ -53,16 +49,17 @@ std::vector<MapRow> rows_of_map() {
 
 // Points of the requested methods that can run the case at all.
 std::vector<OutcomePoint> points_of(const Case& input, const std::vector<std::string>& methods) {
-  const double highest_frequency = resolve(with_method(input, "erk")).settings().highest_frequency;
+  Case free = with_method(input, "erk");
+  free.solver.step.reset();
+  const double highest_frequency = resolve(free).settings().highest_frequency;
   std::vector<OutcomePoint> points;
   for (const MapRow& row : rows_of_map()) {
     if (!asked_for(methods, row.method)) continue;
     Case chosen = with_method(input, row.method);
-    Case without_step = chosen;
-    without_step.solver.step.reset();
-    if (!can_run(without_step)) continue;
+    chosen.solver.step.reset();
+    if (!can_run(chosen)) continue;
     if (row.fixed_step) chosen.study.beyond_critical = row.forced;
-    if (!row.fixed_step) chosen.solver.max_order = row.max_order;
+    if (row.max_order) chosen.solver.max_order = row.max_order;
     for (const double x : row.fixed_step ? std::span<const double>(angles) : tolerances) {
       if (row.fixed_step) chosen.solver.step = x / highest_frequency;
       if (!row.fixed_step) chosen.solver.rtol = x;
@@ -88,15 +85,6 @@ void run(OutcomePoint& point, const Reference& reference, double run_seconds) {
                               1e6 * result.outcome.time);
 }
 
-double shortest_of(const std::vector<SubImpact>& sub_impacts, double shortest) {
-  for (std::size_t i = 0; i < sub_impacts.size(); ++i) {
-    for (const LengthBeside& beside : lengths_beside(sub_impacts, i)) {
-      shortest = std::min(shortest, beside.length);
-    }
-  }
-  return shortest;
-}
-
 }  // namespace
 
 bool asked_for(const std::vector<std::string>& methods, const std::string& method) {
@@ -119,61 +107,6 @@ OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& method
   };
   in_parallel(map.points.size(), jobs, run_point, progress);
   return map;
-}
-
-std::vector<MissedPairs> missed_pairs(const Case& input, Jobs jobs, const Count& progress) {
-  std::vector<MissedPairs> rows;
-  for (const double step : steps_us) rows.push_back({1e-6 * step, 0, 0, 0, input.end_time});
-  std::vector<std::vector<MissedPairs>> of_speed(n_speeds);
-  const auto run_speed = [&](std::size_t k) {
-    of_speed[k] = rows;
-    Case scene = with_method(input, "exponential");
-    scene.model.section = SectionKind::elastic;
-    scene.scene.striker.velocity *= 0.5 + static_cast<double>(k) / (n_speeds - 1);
-    const Reference reference = compute_reference(scene, reference_error, {}, 1);
-    scene.end_time = reference.horizon;
-    for (MissedPairs& row : of_speed[k]) {
-      scene.solver.step = row.step;
-      for (const bool search : {true, false}) {
-        scene.study.pair_detection = search;
-        const Result result = simulate(scene);
-        const bool right = judge(result, event_errors(result, reference)) == Verdict::right;
-        (search ? row.right_with_search : row.right_without) = right ? 1 : 0;
-      }
-      row.shortest = shortest_of(reference.sub_impacts, reference.horizon);
-    }
-  };
-  in_parallel(n_speeds, jobs, run_speed, progress);
-  std::erase_if(of_speed, [](const auto& speed) { return speed.empty(); });  // interrupted
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const std::vector<MissedPairs>& speed : of_speed) {
-      ++rows[i].n_runs;
-      rows[i].right_with_search += speed[i].right_with_search;
-      rows[i].right_without += speed[i].right_without;
-      rows[i].shortest = std::min(rows[i].shortest, speed[i].shortest);
-    }
-  }
-  return rows;
-}
-
-LayerStudy layers_against_exact(const Case& input, Jobs jobs, const Count& progress) {
-  LayerStudy study;
-  Case exact = input;
-  exact.model.section = SectionKind::exact;
-  study.exact = compute_reference(exact, reference_error, {}, jobs == 0 ? 2 : jobs);
-  std::vector<std::optional<LayerPoint>> points(std::size(layer_counts));
-  const auto run_layers = [&](std::size_t i) {
-    Case trial = with_method(study.exact.input, "nystrom");
-    trial.solver.rtol = tolerance_of_layers;
-    trial.model.section = SectionKind::layers;
-    trial.model.layers = layer_counts[i];
-    points[i] = {layer_counts[i], event_errors(simulate(trial), study.exact)};
-  };
-  in_parallel(points.size(), jobs, run_layers, progress);
-  for (std::optional<LayerPoint>& point : points) {
-    if (point) study.points.push_back(std::move(*point));  // not interrupted
-  }
-  return study;
 }
 
 }  // namespace subimpact

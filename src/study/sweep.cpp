@@ -13,7 +13,10 @@
 namespace subimpact {
 namespace {
 
-constexpr int n_halvings = 8;
+// Fixed steps over that of central differences, as powers of 2.
+constexpr int longest_step = 5;  // where accuracy alone limits it
+constexpr int longest_explicit_step = 2;
+constexpr int shortest_step = -8;
 constexpr int loosest_decade = -2;
 constexpr int tightest_decade = -12;
 
@@ -35,22 +38,19 @@ Case with_method(const Case& input, const std::string& name) {
   Case chosen = input;
   chosen.output.keep_no_rows();
   chosen.solver.table.reset();
-  chosen.solver.max_order.reset();
   assign(chosen, *find_case_key("solver.method"), parts.method);
   if (parts.table) {
     assign(chosen, *find_case_key("solver.table"), *parts.table);
   } else if (chosen.solver.method == input.solver.method) {
     chosen.solver.table = input.solver.table;
-    chosen.solver.max_order = input.solver.max_order;
   }
+  if (!descriptor_of(chosen.solver.method).order) chosen.solver.max_order.reset();
   if (parts.events) {
     assign(chosen, *find_case_key("solver.events"), *parts.events);
   } else if (events_of(chosen) == EventHandling::library &&
              !descriptor_of(chosen.solver.method).sundials) {
     chosen.solver.events.reset();
   }
-  const bool fixed = descriptor_of(chosen.solver.method).has_fixed_steps();
-  if (!fixed && chosen.solver.method != input.solver.method) chosen.solver.step.reset();
   return chosen;
 }
 
@@ -87,6 +87,20 @@ bool can_run(const Case& input) {
   }
 }
 
+bool takes_tolerance(const Case& input) {
+  const OwnIntegrator* own = input.parts.integrator.get();
+  return !descriptor_of(input.solver.method).has_fixed_steps() &&
+         !(input.solver.method == Method::own && own != nullptr && !own->is_adaptive);
+}
+
+int order_of(const Case& input, const ResolvedSettings& used) {
+  if (input.solver.method == Method::own) return input.parts.integrator->order;
+  for (const MethodTable& table : method_tables()) {
+    if (table.method == input.solver.method && table.name == used.table) return table.order;
+  }
+  return descriptor_of(input.solver.method).order_of_steps;
+}
+
 std::string Setting::text() const {
   return fixed_step ? fmt::format("step {:.4g} us", 1e6 * value)
                     : fmt::format("rtol {:.0e}", value);
@@ -105,28 +119,35 @@ Case with_setting(const Case& input, const Setting& setting) {
 
 std::vector<Setting> settings_of(const Case& input, const std::string& method) {
   Case chosen = with_method(input, method);
+  const MethodDescriptor& descriptor = descriptor_of(chosen.solver.method);
+  const bool has_tolerance = takes_tolerance(chosen);
   chosen.solver.step.reset();
+  if (!has_tolerance && !descriptor.has_fixed_steps()) chosen.solver.step = input.end_time;
+  const double critical = resolve(chosen).settings().critical_step;
+  const auto step = [&](int power) {
+    return Setting{method, true, std::ldexp(default_part_of_critical * critical, power)};
+  };
   std::vector<Setting> settings;
-  if (descriptor_of(chosen.solver.method).has_fixed_steps()) {
-    const double largest = default_part_of_critical * resolve(chosen).settings().critical_step;
-    for (int i = 0; i <= n_halvings; ++i) {
-      settings.push_back({method, true, std::ldexp(largest, -i)});
-    }
-  } else {
-    for (int decade = loosest_decade; decade >= tightest_decade; --decade) {
-      settings.push_back({method, false, std::pow(10.0, decade)});
-    }
+  for (int decade = loosest_decade; has_tolerance && decade >= tightest_decade; --decade) {
+    settings.push_back({method, false, std::pow(10.0, decade)});
   }
+  const bool is_stable = descriptor.implicit || descriptor.modes == MethodDescriptor::Modes::always;
+  int power = descriptor.has_fixed_steps() ? 0 : is_stable ? longest_step : longest_explicit_step;
+  if (!can_run(with_setting(input, step(power)))) return settings;
+  for (; power >= shortest_step; --power) settings.push_back(step(power));
   return settings;
 }
 
 std::vector<std::string> default_methods(const Case& input) {
   std::vector<std::string> methods;
+  Case free = input;
+  free.solver.step.reset();
+  if (input.parts.integrator) methods.push_back("own");
   for (const char* method :
        {"central-difference", "exponential", "nystrom:dprkn8", "nystrom:dprkn12", "erk:dop853",
         "erk:dop853+library", "erk:dormand-prince", "erk:verner", "erk:bogacki-shampine", "adams",
         "adams+library", "bdf", "dirk:esdirk547"}) {
-    if (can_run(with_method(input, method))) methods.push_back(method);
+    if (can_run(with_method(free, method))) methods.push_back(method);
   }
   return methods;
 }

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
+#include "case/problem.h"
 #include "numerics/estimates.h"
+#include "study/method_choice.h"
 
 namespace subimpact {
 namespace {
@@ -13,6 +17,9 @@ namespace {
 constexpr double reference_share = 0.1;
 // A tolerance ten times tighter costs up to this many times more (order 3: 2.2).
 constexpr double growth_of_a_decade = 2.2;
+// Errors show an order where they are so many times that of the reference.
+constexpr double shown_order = 10.0;
+constexpr double whole = 0.01;  // distance of an exponent from a whole number
 
 // Runs the case once to warm up, whose result counts, then again until the options' number of
 // repeats or budget is reached; a first run that uses up the budget alone is the timed one. Nothing
@@ -37,17 +44,29 @@ bool run_timed(Trial& trial, const Reference& reference, const WorkPrecisionOpti
 bool finer_ones_reach(const std::vector<Trial>& points, std::size_t from, double error) {
   for (std::size_t i = from + 1; i < points.size(); ++i) {
     const bool finer = points[i].setting.method == points[from].setting.method &&
+                       points[i].setting.fixed_step == points[from].setting.fixed_step &&
                        points[i].verdict != Verdict::not_run;
     if (finer && !points[i].reaches(error)) return false;
   }
   return true;
 }
 
-// Runs the settings of a method from coarse to fine, into the study; `compared` ends at the
+// Of a run after one with a longer step.
+std::optional<double> order_between(const Trial& longer, const Trial& point, double least) {
+  const bool shows = point.setting.fixed_step && longer.verdict == Verdict::right &&
+                     point.verdict == Verdict::right && longer.errors.maximum > least &&
+                     point.errors.maximum > least;
+  if (!shows) return std::nullopt;
+  return std::log(longer.errors.maximum / point.errors.maximum) /
+         std::log(longer.setting.value / point.setting.value);
+}
+
+// Runs settings of one kind of a method from coarse to fine, into the study; `compared` ends at the
 // horizon.
-void run_sweep(const Case& compared, const std::vector<Setting>& sweep,
+void run_sweep(const Case& compared, std::span<const Setting> sweep,
                const WorkPrecisionOptions& options, WorkPrecision& study) {
   double expected = 0.0;
+  std::optional<Trial> before;
   for (const Setting& setting : sweep) {
     Trial point;
     point.setting = setting;
@@ -60,6 +79,9 @@ void run_sweep(const Case& compared, const std::vector<Setting>& sweep,
       study.interrupted = !run_timed(point, study.reference, options);
       if (study.interrupted) return;
     }
+    const double least = shown_order * study.reference.error;
+    if (before) point.order = order_between(*before, point, least);
+    before = point;
     study.points.push_back(point);
     if (options.finished) options.finished(study.points);
     if (point.verdict == Verdict::not_run) return;
@@ -68,6 +90,27 @@ void run_sweep(const Case& compared, const std::vector<Setting>& sweep,
     if (as_good_as_reference) return;
     expected = point.seconds * growth_of_a_decade;
   }
+}
+
+MethodOrder order_of_sweep(const Case& compared, const Setting& fixed, const WorkPrecision& study) {
+  const Case input = with_setting(compared, fixed);
+  const ResolvedSettings used = resolve(input).settings();
+  MethodOrder order{fixed.method, order_of(input, used), {}, OrderBound::none, {}};
+  for (const Trial& point : study.points) {
+    if (point.setting.method == fixed.method && point.order) order.observed = point.order;
+  }
+  const double n = used.contact_exponent;
+  const auto bound = [&](OrderBound by, std::optional<double> most) {
+    if (most.value_or(0.0) >= order.smooth) return;
+    if (order.most && most && *order.most <= *most) return;
+    order.bound = by;
+    if (most) order.most = most;
+  };
+  if (may_yield(input)) bound(OrderBound::sections, {});
+  if (std::abs(n - std::round(n)) > whole) bound(OrderBound::contact, n + 1.0);
+  if (used.events == EventHandling::interpolated) bound(OrderBound::interpolation, 3.0);
+  if (used.events == EventHandling::library) bound(OrderBound::library, 5.0);
+  return order;
 }
 
 }  // namespace
@@ -86,7 +129,11 @@ WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& opti
   Case compared = input;
   compared.end_time = study.reference.horizon;
   for (const std::vector<Setting>& sweep : sweeps) {
-    if (!study.interrupted) run_sweep(compared, sweep, options, study);
+    const auto fixed = std::ranges::find_if(sweep, &Setting::fixed_step);
+    for (const auto& part : {std::span(sweep.begin(), fixed), std::span(fixed, sweep.end())}) {
+      if (!study.interrupted) run_sweep(compared, part, options, study);
+    }
+    if (fixed != sweep.end()) study.orders.push_back(order_of_sweep(compared, *fixed, study));
   }
   return study;
 }

@@ -80,9 +80,6 @@ TEST(BadCommandLine, EndsWithStatus2AndSaysWhyAndLeavesNothing) {
        R"(--methods leapfrog: unknown method "leapfrog")"},
       {{"compare", paper, "--methods", "nystrom:dprkn9"},
        R"(--methods nystrom:dprkn9: unknown table "dprkn9"|nystrom: dprkn8, dprkn12|did you mean "nystrom:dprkn8"?)"},
-      {{"stability", paper, "--parts", "everything"}, "--parts: everything not in {map,pairs,"},
-      {{"stability", paper, "--parts", "pairs", "--set", "model.mesh=rigid", "--out", "study"},
-       "a rigid beam has no vibrations to study"},
       {{"run", paper, "--out", "/dev/null/results"}, "/dev/null/results|choose another with --out"},
   };
   for (const BadLine& line : bad_lines) {

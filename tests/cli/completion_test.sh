@@ -28,6 +28,5 @@ done
 is "$(completed new ba)" ball-drop
 is "$(completed run case.toml --set beam.len)" beam.length=
 is "$(completed run case.toml --method exp)" exponential
-is "$(completed stability case.toml --parts pai)" pairs
 is "$(completed run case.toml --out '')" ""
 is "$(completed run cas)" ""

@@ -89,33 +89,6 @@ TEST(ImplicitMethods, LoseEnergyAndThenSubImpactsAsTheStepGrows) {
   expect_in(row.at(32.0).message, "ARK_CONV_FAILURE");
 }
 
-TEST(SubImpactsWithinOneStep, AreMissedWithoutTheSearchForPairs) {
-  const std::vector<MissedPairs> rows = missed_pairs(elastic_case(501, 0.25e-3));
-  const auto at = [&](double step) {
-    return *std::find_if(rows.begin(), rows.end(),
-                         [&](const MissedPairs& row) { return std::abs(row.step - step) < 1e-9; });
-  };
-  // Nothing is as short as a quarter of a microsecond, so nothing is missed either way.
-  EXPECT_LT(0.25e-6, at(0.25e-6).shortest);
-  EXPECT_EQ(at(0.25e-6).right_without, at(0.25e-6).right_with_search);
-  EXPECT_LT(at(8e-6).right_without, at(8e-6).right_with_search - 5);
-}
-
-TEST(SubImpactsWithinOneStep, OfAnInterruptedStudyAreThoseOfTheStrikesThatEnded) {
-  std::size_t ended = 0;
-  const std::vector<MissedPairs> rows =
-      missed_pairs(elastic_case(501, 0.25e-3), 1, [&](std::size_t n, std::size_t all) {
-        EXPECT_EQ(n, ++ended);
-        EXPECT_EQ(all, 40u);
-        return n < 3;
-      });
-  EXPECT_EQ(ended, 3u);
-  for (const MissedPairs& row : rows) {
-    EXPECT_EQ(row.n_runs, 3);
-    EXPECT_LE(row.right_with_search, 3);
-  }
-}
-
 TEST(InParallel, EveryTaskRunsOnceAndIsCountedAndNoneBeginsAfterAnEnd) {
   for (const unsigned jobs : {1u, 4u}) {
     std::vector<int> runs(100, 0);
@@ -131,24 +104,6 @@ TEST(InParallel, EveryTaskRunsOnceAndIsCountedAndNoneBeginsAfterAnEnd) {
     EXPECT_GE(std::ranges::count(runs, 2), 10);
     EXPECT_LT(std::ranges::count(runs, 2), 10 + static_cast<int>(jobs));
   }
-}
-
-TEST(Layers, TendToTheExactSectionAsTheSquareOfTheirNumberAndTooFewMiscount) {
-  Case input = elastic_case(501, 0.6e-3);
-  input.model.section = SectionKind::layers;
-  const LayerStudy study = layers_against_exact(input);
-  const auto at = [&](int layers) {
-    for (const LayerPoint& point : study.points) {
-      if (point.layers == layers) return point.errors;
-    }
-    return EventErrors{};
-  };
-  EXPECT_FALSE(at(10).all_correspond());
-  EXPECT_TRUE(at(40).all_correspond());
-  EXPECT_TRUE(at(640).all_correspond());
-  const double order = std::log2(at(40).median / at(640).median) / 4.0;
-  EXPECT_GT(order, 1.6);
-  EXPECT_LT(order, 2.4);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ requires std::is_invocable_v<Call> Refusal refusal_of(const Call& call) {
   try {
     call();
   } catch (const InvalidCase& error) {
-    return {error.key, error.what()};
+    return {error.key, error.message};
   }
   return {};
 }

@@ -12,6 +12,7 @@
 #include "subimpact/model/mesh/beam_mesh.h"
 #include "subimpact/model/scene.h"
 #include "subimpact/model/section/fibres.h"
+#include "subimpact/ode/integrator.h"
 #include "subimpact/simulate/options.h"
 
 namespace subimpact {
@@ -66,7 +67,8 @@ struct CaseParts {
   std::shared_ptr<const ContactLaw> contact_law;
   /// Empty: the section of model.section; otherwise that key only decides whether it may yield.
   std::optional<Fibres> section;
-  std::shared_ptr<const EndState> start;  ///< Problem::start
+  std::shared_ptr<const OwnIntegrator> integrator;  ///< of the method `own`
+  std::shared_ptr<const EndState> start;            ///< Problem::start
 };
 
 /// A case: the options of its run, and what they apply to.

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "subimpact/io/output_directory.h"
@@ -33,16 +32,8 @@ std::string work_precision_csv(const std::vector<WorkPrecision>& studies);
 /// outputs and those that a study sets (method, table, tolerance, step).
 std::string case_id(const Case& input);
 
-/// A part of a stability study: its printed text and CSV files.
-struct StabilityPart {
-  std::string text;                                         ///< empty: there is nothing to show
-  std::vector<std::pair<std::string, std::string>> tables;  ///< names of files, and contents
-};
-
-StabilityPart part_of(const OutcomeMap& map);
-StabilityPart part_of(const std::vector<MissedPairs>& rows);
-StabilityPart part_of(const LayerStudy& study);
-
-void write(const std::filesystem::path& directory, const StabilityPart& part);
+/// One letter for each run, and outcomes.csv, one row for each.
+std::string outcome_table(const OutcomeMap& map);
+std::string outcomes_csv(const OutcomeMap& map);
 
 }  // namespace subimpact

@@ -23,12 +23,15 @@ class ErrorOf : public Base {
   explicit ErrorOf(const std::string& message, ErrorKind kind = of) : Base(message, kind) {}
 };
 
-/// Settings that cannot be run as given. `key` is the key of the case file ("solver.step").
+/// Settings that cannot be run as given. `key` is the key of the case file ("solver.step"), with
+/// which `what()` begins; `message` is what follows.
 class InvalidCase : public Error {
  public:
-  InvalidCase(std::string key, const std::string& message)
-      : Error(message, ErrorKind::invalid_case), key(std::move(key)) {}
-  std::string key;
+  InvalidCase(const std::string& key, std::string message)
+      : Error(key + ' ' + message, ErrorKind::invalid_case),
+        key(key),
+        message(std::move(message)) {}
+  std::string key, message;
 };
 
 /// A case that cannot be read. `what()` has one line per problem, with place, key, what is wrong,

@@ -10,6 +10,7 @@
 
 namespace subimpact {
 
+class ObservedStep;
 class StruckBeam;
 
 /// Called at intervals with the simulated time, s; for progress displays. Returning false ends the
@@ -49,6 +50,25 @@ class RunView {
   const StruckBeam& beam_;
 };
 
+/// An accepted step, or the part of one up to an event, before its end is: the motion within it.
+/// Valid only during the call that receives it.
+class StepView {
+ public:
+  StepView(const ObservedStep& step, const StruckBeam& beam, std::vector<double>& state)
+      : step_(step), beam_(beam), state_(state) {}
+
+  double start() const;  ///< s
+  double end() const;    ///< s
+  /// Striker and beam at a time (s) of the step, computed by the method itself, not interpolated;
+  /// valid until the next call. Energies are those of the histories at the step's start.
+  RunView at(double time) const;
+
+ private:
+  const ObservedStep& step_;
+  const StruckBeam& beam_;
+  std::vector<double>& state_;
+};
+
 /// Watches a run: derive from this class, override the functions of interest, and pass the object
 /// to simulate().
 ///
@@ -67,6 +87,8 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
+  /// Called for every step before on_step, for states within it.
+  virtual void within_step(const StepView& /*step*/) {}
   /// Called at the end of every accepted step. Steps also end at events: on_step is then called
   /// after after_event, with the same state.
   virtual void on_step(const RunView& /*end*/) {}
@@ -90,6 +112,9 @@ class Observers final : public Observer {
   Observers(std::initializer_list<Observer*> all) : all_(all) {}
   void on_step(const RunView& end) override {
     for (Observer* one : all_) one->on_step(end);
+  }
+  void within_step(const StepView& step) override {
+    for (Observer* one : all_) one->within_step(step);
   }
   void before_event(const Transition& event, const RunView& at) override {
     for (Observer* one : all_) one->before_event(event, at);

@@ -27,7 +27,16 @@ enum class ReversalHandling {
   step_end  ///< history advances at step ends only
 };
 
-enum class Method { central_difference, erk, nystrom, dirk, adams, bdf, exponential };
+enum class Method {
+  central_difference,
+  erk,
+  nystrom,
+  dirk,
+  adams,
+  bdf,
+  exponential,
+  own  ///< CaseParts::integrator, Problem::integrator
+};
 
 struct SolverOptions {
   Method method = Method::erk;

@@ -7,6 +7,7 @@
 #include "subimpact/model/mesh/beam_mesh.h"
 #include "subimpact/model/scene.h"
 #include "subimpact/model/section/fibres.h"
+#include "subimpact/ode/integrator.h"
 #include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/result.h"
@@ -34,6 +35,8 @@ struct Problem {
   std::optional<Fibres> section;  ///< empty: the solid rectangle
   bool may_yield = true;          ///< whether sections yield, at the yield stress of the beam
   bool check_contact_law = true;  ///< whether a run begins with broken_rule(*contact_law)
+  bool check_mesh = true;         ///< whether it is refused for broken_rule(*mesh, beam)
+  std::shared_ptr<const OwnIntegrator> integrator;  ///< of the method `own`
   /// Result::end_state of an earlier strike on the same beam, mesh and laws, which this one finds.
   /// Null: the beam is straight, at rest and has never yielded.
   std::shared_ptr<const EndState> start;

@@ -25,9 +25,10 @@ struct Comparison {
 };
 
 /// Runs a scene by several methods ("central-difference", "erk", or with a table "erk:verner"),
-/// each with the case's tolerance or its default step, and compares them with a reference run:
-/// nystrom at rtol = 1e-11 with its own error bars. History rows are left out. `progress`, if any,
-/// can end the comparison. Throws InvalidCase, also for unknown methods.
+/// each with the case's step if one is given, else with its tolerance or the default step, and
+/// compares them with run_reference() at rtol = 1e-11. History rows are left out. `progress`, if
+/// any, can end the comparison. Throws InvalidCase, also for unknown methods, a step or an order
+/// that a method does not have, and a reference that fails.
 Comparison compare(const Case& input, const std::vector<std::string>& methods,
                    const std::function<void(const std::string& name)>& announce = {},
                    const Progress& progress = {});

@@ -35,27 +35,4 @@ using Count = std::function<bool(std::size_t done, std::size_t all)>;
 OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods = {},
                        double run_seconds = 20.0, Jobs jobs = 0, const Count& progress = {});
 
-/// Sub-impacts and separations that begin and end within one step: of runs at several striking
-/// speeds (from half to one and a half times the case's; elastic beam, exponential method), how
-/// many have all sub-impacts up to the horizon, with and without the search for such pairs.
-struct MissedPairs {
-  double step = 0.0;  ///< s
-  int n_runs = 0;
-  int right_with_search = 0;
-  int right_without = 0;
-  double shortest = 0.0;  ///< s, the shortest sub-impact or separation of all references
-};
-std::vector<MissedPairs> missed_pairs(const Case& input, Jobs jobs = 0, const Count& progress = {});
-
-/// Layers compared with the exact law, their limit, integrated as accurately as the reference.
-struct LayerPoint {
-  int layers = 0;
-  EventErrors errors;  ///< against the exact law
-};
-struct LayerStudy {
-  Reference exact;
-  std::vector<LayerPoint> points;
-};
-LayerStudy layers_against_exact(const Case& input, Jobs jobs = 0, const Count& progress = {});
-
 }  // namespace subimpact

@@ -28,9 +28,11 @@ struct Setting {
 /// The case with that setting. Throws InvalidCase for an unknown method.
 Case with_setting(const Case& input, const Setting& setting);
 
-/// From coarse to fine. Adaptive methods: rtol from 1e-2 to 1e-12 in decades. Central differences:
-/// steps from 0.9 of critical down to 1/256 of that, each half of the previous one. Throws
-/// InvalidCase for an unknown method or table, and where the method cannot run the case.
+/// From coarse to fine. Methods with error control: rtol from 1e-2 to 1e-12 in decades. Then, by
+/// methods that take a fixed step, steps each half of the previous one, down to 1/256 of 0.9 of the
+/// critical step of central differences: from that step by central differences, from 4 times it by
+/// other explicit methods, from 32 times by implicit ones and in modes. Throws InvalidCase for an
+/// unknown method or table, and where the method cannot run the case.
 std::vector<Setting> settings_of(const Case& input, const std::string& method);
 
 /// The methods of a sweep by default: every method that can run the case, with its relevant tables.

@@ -21,10 +21,29 @@ struct Recommendation {
   std::optional<Trial> steady;
 };
 
+/// What bounds the orders of event times, whatever the method.
+enum class OrderBound {
+  none,
+  contact,        ///< the force rises as lambda^n from the touch, n not whole: n + 1
+  interpolation,  ///< forces change within steps, whose events are interpolated
+  library,        ///< events lie on a dense output of degree 4
+  sections        ///< sections begin and cease to flow within steps
+};
+
+/// The order of event times at fixed steps, of one method.
+struct MethodOrder {
+  std::string method;
+  int smooth = 0;                  ///< of the method where forces are smooth; 0: not known
+  std::optional<double> observed;  ///< with the shortest steps well above the reference's error
+  OrderBound bound = OrderBound::none;
+  std::optional<double> most;  ///< that the bound leaves, if it is below `smooth` and known
+};
+
 struct WorkPrecision {
   std::string label;  ///< of the chart: how this case differs from others in it
   Reference reference;
   std::vector<Trial> points;
+  std::vector<MethodOrder> orders;  ///< of the methods with fixed steps
   bool interrupted = false;
 };
 
@@ -43,8 +62,9 @@ struct WorkPrecisionOptions {
   Progress progress;  ///< of a single run; false ends the study with the results so far
 };
 
-/// Sweeps every method from coarse to fine against a reference of its own. Timed runs are made one
-/// at a time; the shortest of several repeats counts. A method's sweep ends when the next setting
+/// Sweeps every method from coarse to fine against a reference of its own, tolerances first, then
+/// fixed steps. Timed runs are made one at a time; the shortest of several repeats counts. A sweep
+/// ends when the next setting
 /// would take longer than `point_seconds` (this setting is reported as not run), or when its errors
 /// fall to those of the reference. Throws InvalidCase, for methods before anything is run.
 WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& options = {});

@@ -19,7 +19,8 @@ from .._toml import flat
 from ..case import Case, keys
 from ..plot import Absent, comparison, histograms, sweep_map
 from ..plot.sweeps import CHIEF, error_column
-from ..plot.directory import arrays_of, caption_of, letters, svg_of
+from .._tables import arrays_of
+from ..plot.directory import caption_of, letters, svg_of
 from ..result import Result, read_results
 from ..running import run
 from .markup import escaped, figures, headlines, in_print, paragraphs, table, tiles, whole

@@ -14,12 +14,12 @@ from .beam import bending, envelope, shapes, strikes
 from .comparison import comparison
 from .directory import draw_directory, read_table, save
 from .run import energies, first_sub_impact, force, gauges, indentation, response, timeline
-from .studies import layers, missed_pairs, outcomes, work_precision
+from .studies import differences, outcomes, sensitivity, work_precision
 from .style import Absent, figure, style
 from .sweeps import histogram, histograms, sweep_map
 
 __all__ = [
-    "Absent", "bending", "comparison", "draw_directory", "energies", "envelope", "figure", "first_sub_impact", "force",
-    "gauges", "histogram", "histograms", "indentation", "layers", "missed_pairs", "outcomes", "read_table", "response",
-    "save", "shapes", "strikes", "style", "sweep_map", "timeline", "work_precision",
+    "Absent", "bending", "comparison", "differences", "draw_directory", "energies", "envelope", "figure", "first_sub_impact",
+    "force", "gauges", "histogram", "histograms", "indentation", "outcomes", "read_table", "response", "save", "sensitivity",
+    "shapes", "strikes", "style", "sweep_map", "timeline", "work_precision",
 ]

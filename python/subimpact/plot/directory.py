@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import functools
 import io
 import json
@@ -18,6 +17,7 @@ import numpy as np
 
 from .. import _core
 from .._errors import OutputError, ResultsError
+from .._tables import read_table
 from .._text import one_line, path_text
 from ..result import read_results
 from . import beam, run, studies, sweeps
@@ -29,7 +29,6 @@ LIST = "figures.json"
 
 _METADATA: dict[str, dict[str, None]] = {"svg": {"Date": None}, "png": {"Software": None}, "pdf": {"CreationDate": None}}
 _ROOT_STYLE = "stroke-linejoin: round; stroke-linecap: butt; font-family: DejaVu Sans, Arial, Helvetica, sans-serif"
-_OF_STABILITY = ("outcomes", "missed_pairs", "layers")
 _OF_RUN: dict[str, Callable[..., Any]] = {
     "response": run.response,
     "first-sub-impact": run.first_sub_impact,
@@ -56,31 +55,6 @@ class Drawn(NamedTuple):
     captions: dict[str, str]  #: of the figures drawn now, by their names
     left_out: list[str]  #: with their reasons
     failed: list[str]
-
-
-def read_table(file: str | os.PathLike[str]) -> dict[str, Any]:
-    """The columns of a CSV file with a heading: arrays of numbers, NaN in empty cells, or of texts.
-    Raises ResultsError."""
-    try:
-        with open(file, encoding="utf-8", newline="") as text:
-            heading, *rows = csv.reader(text, strict=True)
-    except (OSError, ValueError, csv.Error) as error:
-        raise ResultsError(f"{os.fspath(file)}: cannot be read ({error})") from None
-    if any(len(row) != len(heading) for row in rows) or not rows:
-        raise ResultsError(f"{os.fspath(file)}: is no table with rows of {len(heading)} cells")
-    return arrays_of(dict(zip(heading, zip(*rows))))
-
-
-def arrays_of(columns: Mapping[str, Sequence[str]]) -> dict[str, Any]:
-    """Columns of cells as arrays of numbers, NaN in empty cells, or of texts."""
-    return {name: _numbers(np.array(cells)) for name, cells in columns.items()}
-
-
-def _numbers(cells: Any) -> Any:
-    try:
-        return np.where(cells == "", "nan", cells).astype(float)
-    except ValueError:
-        return cells
 
 
 def caption_of(draw: Callable[..., Any]) -> str:
@@ -117,9 +91,13 @@ def figures_of(directory: Path, *others: Path) -> dict[str, Figure]:
         points = table("work_precision")
         return {"work_precision": _figure(studies.work_precision, points),
                 "work_precision_evaluations": _figure(studies.work_precision, points, cost="right_hand_sides")}
-    figures = {name: _figure(getattr(studies, name), table(name)) for name in _OF_STABILITY if has(f"{name}.csv")}
-    if figures:
-        return figures
+    if has("outcomes.csv"):
+        return {"outcomes": _figure(studies.outcomes, table("outcomes"))}
+    if has("matches.csv"):
+        floor = table("comparison")["reference_error_s"][0]
+        return {"differences": _figure(studies.differences, table("matches"), reference_error=floor)}
+    if has("sensitivity.csv"):
+        return {"sensitivity": _figure(studies.sensitivity, table("sensitivity"))}
     result = read_results(directory)
     figures = {name: _figure(draw, result) for name, draw in _OF_RUN.items()}
     if result["output.gauges"]:

@@ -1,19 +1,17 @@
-"""Figures of the tables of studies: work-precision and stability."""
+"""Figures of the tables of studies: work-precision, stability, comparisons of methods and sensitivities."""
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from typing import Any
 
 import matplotlib
 import numpy as np
 
-from .style import COLOURS, GREY, figure, legend_above
+from .style import COLOURS, GREY, figure
 
 Table = Mapping[str, Any]
-
-#: Errors below, in us, cannot be told from that of the reference.
-_LEAST_ERROR = 1e-5
 
 VERDICTS = {"right": "#009E73", "wrong count": "#E69F00", "inaccurate": "#CC79A7", "unstable": "#D55E00",
             "failed": "#7A0019", "refused": "#56B4E9", "not run": "#D0D0D0"}
@@ -25,48 +23,90 @@ def _unique(names: Any) -> list[str]:
     return list(dict.fromkeys(names))
 
 
-def _line(k: int) -> tuple[str, str]:
-    """Colour and dashes of the k-th of many lines."""
-    return COLOURS[k % len(COLOURS)], ("-", "--", ":")[k // len(COLOURS) % 3]
+def _marked(k: int) -> dict[str, str]:
+    """Colour and mark of the k-th of many curves; no two of 56 are alike."""
+    return {"color": COLOURS[k % len(COLOURS)], "marker": "os^vDP*"[k % 7]}
 
 
 def _one_per_label(table: Table) -> tuple[Any, dict[str, Any]]:
     n = len(_unique(table["label"]))
-    return [[*range(n)]], {"figsize": (2.2 + 2.6 * n, 4.4), "sharex": True, "sharey": True}
+    return [[*range(n)]], {"figsize": (2.6 + 3.2 * n, 5.2), "sharex": True, "sharey": True}
 
 
 @figure(_one_per_label)
 def work_precision(points: Table, axes: Any, cost: str = "wall_s") -> None:
-    """Cost against the largest error of an event time. Filled: every sub-impact found; hollow: some lost or
-    invented, and the error is at least the duration of the first of these; crosses at the right: unstable,
-    or gave up."""
-    methods = _unique(points["method"])
-    panels = np.ravel(axes)
-    longest = np.fmax(points["max_error_s"], points["odd_duration_s"])
-    error = np.maximum(1e6 * longest, _LEAST_ERROR)
+    """Cost against the largest error of an event time, with error control (solid) and at fixed steps (dashed, with the
+    order observed last). Filled: every sub-impact found; hollow: below the error of the reference (grey), which alone is
+    known; crosses: a sub-impact lost or invented, the error at least its duration; crosses at the right: unstable, or gave up."""
+    methods, panels = _unique(points["method"]), np.ravel(axes)
     scale, words = {"wall_s": (1e3, "wall time, ms")}.get(cost, (1.0, "evaluations of the right-hand side"))
-    verdict = points["verdict"]
-    finished = (verdict == "right") | (verdict == "wrong count")
+    verdict, error = points["verdict"], 1e6 * np.fmax(points["max_error_s"], points["odd_duration_s"])
+    floor = 1e6 * points["reference_error_s"]
+    finished = ((verdict == "right") | (verdict == "wrong count")) & (error > 0)
     broken = ~finished & (verdict != "refused") & (verdict != "not run")
-    edge = 10.0 ** np.ceil(np.log10(error[finished].max(initial=1.0)))
+    low, edge = (10.0 ** rounded(np.log10(bound)) for rounded, bound in (
+        (np.floor, min(error[finished].min(initial=1.0), floor.min())), (np.ceil, error[finished].max(initial=1e-6))))
     for panel, label in zip(panels, _unique(points["label"])):
+        here = points["label"] == label
         panel.axvspan(edge, 50 * edge, color="#F0F0F0", linewidth=0)
-        panel.text(18 * edge, 0.5, "failed", transform=panel.get_xaxis_transform(), rotation=90, va="center",
-                   color="#606060")
-        for k, method in enumerate(methods):
-            of_line = (points["label"] == label) & (points["method"] == method) & (points[cost] > 0)
-            colour, dashes = _line(k)
-            for which, mark, face in ((finished, "", colour), (verdict == "right", "o", colour),
-                                      (verdict == "wrong count", "o", "white"), (broken, "x", colour)):
-                x, y = error[of_line & which], scale * points[cost][of_line & which]
-                panel.plot(x if which is not broken else np.full(len(y), 3 * edge), y, color=colour, marker=mark,
-                           linestyle="none" if mark else dashes, markerfacecolor=face,
-                           label=None if mark else method)
-        panel.set(xscale="log", yscale="log", title=label, xlabel="largest error of an event time, µs")
-        panel.set_xlim(right=50 * edge)
+        panel.axvspan(low, floor[here][0], color="#E4E4E4", linewidth=0)
+        for x, said in ((18 * edge, "failed"), (1.3 * low, "below the error of the reference")):
+            panel.text(x, 0.5, said, transform=panel.get_xaxis_transform(), rotation=90, va="center", color="#606060", fontsize=7)
+        for method, kind in itertools.product(methods, ("rtol", "step")):
+            of_line = here & (points["method"] == method) & (points["kind"] == kind) & (points[cost] > 0)
+            marked = _marked(methods.index(method))
+            shown = of_line & finished
+            panel.plot(error[shown], scale * points[cost][shown], "-" if kind == "rtol" else "--", color=marked["color"], linewidth=0.9)
+            right = of_line & finished & (verdict == "right")
+            for which, look in ((right & (error > floor), marked), (right & (error <= floor), {**marked, "markerfacecolor": "white"}),
+                                (shown & ~right, {**marked, "marker": "x"}), (of_line & broken, {**marked, "marker": "x"})):
+                x = np.full(which.sum(), 3 * edge) if which[broken].any() else error[which]
+                panel.plot(x, scale * points[cost][which], linestyle="none", **look)
+            if (ordered := np.flatnonzero(of_line & np.isfinite(points["observed_order"]))).size:
+                last = ordered[-1]
+                panel.annotate(f"{points['observed_order'][last]:.1f}", (error[last], scale * points[cost][last]), (3, 3),
+                               textcoords="offset points", color=marked["color"], fontsize=7)
+        panel.set(xscale="log", yscale="log", title=label, xlabel="largest error of an event time, µs", xlim=(low, 50 * edge))
         panel.minorticks_off()
     panels[0].set_ylabel(words)
-    panels[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
+    lines = [matplotlib.lines.Line2D([], [], label=method, linewidth=0.9, **_marked(k)) for k, method in enumerate(methods)]
+    kinds = [matplotlib.lines.Line2D([], [], color=GREY, linestyle=style, label=said)
+             for style, said in (("-", "error control"), ("--", "fixed steps, order"))]
+    panels[-1].legend(handles=lines + kinds, loc="upper left", bbox_to_anchor=(1, 1))
+
+
+@figure([[0]], height=3.8)
+def differences(matches: Table, axes: Any, reference_error: float = 0.0) -> None:
+    """How far starts (filled) and ends (hollow) of sub-impacts by each method lie from those of the reference, whose error
+    is grey. Crosses at the top: sub-impacts that the method lacks, or has alone."""
+    methods = _unique(matches["method"])
+    for k, method in enumerate(methods):
+        rows, marked = matches["method"] == method, _marked(k)
+        for event, face in (("start", marked["color"]), ("end", "white")):
+            x, y = 1e3 * matches[f"reference_{event}_s"][rows], 1e6 * np.abs(matches[f"{event}_difference_s"][rows])
+            axes.plot(x[y > 0], y[y > 0], linestyle="none", markerfacecolor=face, label=method if event == "start" else None, **marked)
+        odd = rows & ~np.isfinite(matches["start_difference_s"])
+        at = 1e3 * np.fmin(matches["reference_start_s"], matches["start_s"])[odd]
+        axes.plot(at, np.full(len(at), 1.02 + 0.03 * k), "x", color=marked["color"], transform=axes.get_xaxis_transform(), clip_on=False)
+    axes.set(yscale="log", xlabel="time, ms", ylabel="difference to the reference, µs")
+    axes.axhspan(axes.get_ylim()[0], 1e6 * reference_error, color="#E4E4E4", linewidth=0, zorder=0)
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
+
+
+@figure([[0]], height=4.4)
+def sensitivity(table: Table, axes: Any) -> None:
+    """Changes of starts and ends of sub-impacts per 1 % more of each key, with the errors of the derivatives; the first touch
+    has none."""
+    keys = [name[2:] for name in table if name.startswith("d_")]
+    times = np.isin(table["quantity"], ("start_s", "end_s")) & (table["value"] > 0)
+    for k, key in enumerate(keys):
+        marked = _marked(k)
+        axes.errorbar(1e3 * table["value"][times], 1e4 * table[f"d_{key}"][times], 1e4 * table[f"error_{key}"][times], label=key,
+                      linewidth=0.7, **marked)
+    axes.axhline(0, color=GREY, linewidth=0.6)
+    axes.set(xlabel="start or end of a sub-impact, ms", ylabel="change per 1 %, µs")
+    axes.set_yscale("symlog", linthresh=1.0)
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
 
 
 @figure([[0, 1]], height=3.8)
@@ -88,36 +128,3 @@ def outcomes(table: Table, axes: Any) -> None:
     patches = [matplotlib.patches.Patch(color=colour, label=_WORDS.get(verdict, verdict))
                for verdict, colour in VERDICTS.items()]
     axes[1].legend(handles=patches, loc="upper left", bbox_to_anchor=(1, 1), handlelength=1)
-
-
-@figure([[0]], height=3.8)
-def missed_pairs(table: Table, axes: Any) -> None:
-    """Strikes wholly found, over the step: sub-impacts and separations that begin and end within one
-    step."""
-    step, n, shortest = 1e6 * table["step_s"], table["runs"][0], 1e6 * table["shortest_s"][0]
-    axes.semilogx(step, table["right_with_search"], "o-", label="pairs within a step looked for")
-    axes.semilogx(step, table["right_without"], "s-", label="ends of steps only")
-    axes.axvline(shortest, color=GREY, linestyle="--")
-    axes.annotate("shortest sub-impact or separation", (shortest, 0.03), (-4, 0), rotation=90, ha="right",
-                  xycoords=("data", "axes fraction"), textcoords="offset points", color="#606060", fontsize=8)
-    axes.set(xlabel="step, µs", ylabel=f"strikes (of {n:g}) wholly found", ylim=(0, 1.1 * n))
-    axes.xaxis.set_major_formatter("{x:g}")
-    legend_above(axes)
-
-
-@figure([[0]], height=3.8)
-def layers(table: Table, axes: Any) -> None:
-    """Event times with layers compared with those of the exact section law. Hollow: some sub-impacts lost
-    or invented."""
-    n = table["layers"]
-    whole = (table["corresponding"] == table["sub_impacts"]) & (table["corresponding"] == table["exact_sub_impacts"])
-    axes.loglog(n, 1e6 * table["max_difference_s"][-1] * (n[-1] / n) ** 2, "--", color=GREY,
-                label="falling as 1/layers²")
-    for name, label, mark, colour in (("max_difference_s", "largest", "o", COLOURS[0]),
-                                      ("median_difference_s", "median", "s", COLOURS[1])):
-        axes.loglog(n[whole], 1e6 * table[name][whole], mark, color=colour, label=label)
-        axes.loglog(n[~whole], 1e6 * table[name][~whole], mark, color=colour, markerfacecolor="white")
-    axes.set(xlabel="layers", ylabel="event times, layers − exact, µs")
-    axes.set_xticks(n, [f"{k:g}" for k in n])
-    axes.minorticks_off()
-    legend_above(axes)

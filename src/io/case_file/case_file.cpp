@@ -396,7 +396,7 @@ std::string LoadedCase::message(const InvalidCase& error) const {
   for (const std::string& doubt : doubtful_units(value)) {
     text += fmt::format("{}: check the unit first: {}\n", path_, doubt);
   }
-  return text + fmt::format("{}: {}{} {}", place, error.key, origin, error.what());
+  return text + fmt::format("{}: {}{} {}", place, error.key, origin, error.message);
 }
 
 LoadedCase read_case_text(const std::string& text, const std::string& name,

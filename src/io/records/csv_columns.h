@@ -52,8 +52,13 @@ class NumberWriter {
     const auto bits = std::bit_cast<std::uint64_t>(magnitude);
     Entry& entry = entries_[(bits * 0x9E3779B97F4A7C15u) >> (64 - n_bits)];  // Fibonacci hashing
     if (entry.bits != bits || entry.digits != digits) {
-      const auto end = std::to_chars(entry.text.begin(), entry.text.end(), magnitude,
-                                     std::chars_format::general, digits);
+      auto end = std::to_chars(entry.text.begin(), entry.text.end(), magnitude,
+                               std::chars_format::general, digits);
+      // Readers that are quick rather than exact, as pandas is, count leading zeros as digits.
+      if (magnitude < 0.1 && end.ptr - entry.text.begin() > digits + 2) {
+        end = std::to_chars(entry.text.begin(), entry.text.end(), magnitude,
+                            std::chars_format::scientific, digits - 1);
+      }
       entry.bits = bits;
       entry.digits = digits;
       entry.size = static_cast<std::size_t>(end.ptr - entry.text.begin());

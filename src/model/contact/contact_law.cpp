@@ -1,12 +1,11 @@
 #include "subimpact/model/contact/contact_law.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <utility>
 
+#include "model/rules.h"
 #include "numerics/bracketed_root.h"
 #include "numerics/gauss.h"
 
@@ -16,18 +15,9 @@ namespace {
 constexpr int n_histories = 8;
 constexpr int n_panels = 16;   // of the integral of what may not be smooth
 constexpr int n_samples = 64;  // of a force that must push
+constexpr int most_bisections = 40;
 constexpr double tolerance = 1e-3;
 constexpr double slope_tolerance = 2e-2;  // a slope may begin as the square root of the indentation
-
-class BrokenRule : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-template <class... Values>
-void require(bool holds, fmt::format_string<const Values&...> broken, const Values&... values) {
-  if (!holds) throw BrokenRule(fmt::format(broken, values...));
-}
 
 // By Gauss's rule on panels in s, x = from + (to - from) s^2: exact for powers of half an integer
 // of the distance from `from`, where forces change fastest.
@@ -109,11 +99,13 @@ class Rules {
   template <class Force, class Slope>
   void check_branch(const char* branch, double from, double to, Force force, Slope slope,
                     double energy, ContactHistory history) const {
+    double before = from;
     for (int i = 1; i <= n_samples; ++i) {
       const double x = from + (to - from) * i / n_samples;
       require(force(x) >= -tolerance * force_,
               "its {} force at {:.4g} m is {:.4g} N, {}: contact pushes", branch, x, force(x),
               words(history));
+      check_continuity(branch, std::exchange(before, x), x, force, history);
     }
     const double work = integral(force, from, to, n_panels);
     require(std::abs(work - energy) <= tolerance * energy_,
@@ -126,6 +118,22 @@ class Rules {
             "from {:.4g} to {:.4g} m its {} force grows by {:.4g} N, but the integral of its slope "
             "is {:.4g} N, {}",
             from, to, branch, growth, rise, words(history));
+  }
+
+  // Bisects towards the larger change of the force.
+  template <class Force>
+  void check_continuity(const char* branch, double a, double b, Force force,
+                        ContactHistory history) const {
+    double at_a = force(a), at_b = force(b);
+    for (int i = 0; i < most_bisections && std::abs(at_b - at_a) > tolerance * force_; ++i) {
+      const double x = 0.5 * (a + b), here = force(x);
+      const bool is_first = std::abs(here - at_a) > std::abs(at_b - here);
+      (is_first ? b : a) = x;
+      (is_first ? at_b : at_a) = here;
+    }
+    require(std::abs(at_b - at_a) <= tolerance * force_,
+            "its {} force jumps from {:.4g} to {:.4g} N at {:.6g} m, {}", branch, at_a, at_b, b,
+            words(history));
   }
 
   void check_same_force(double one, double other, double x, const char* place) const {

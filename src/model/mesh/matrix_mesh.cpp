@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
+
+#include "model/mesh/mesh_rules.h"
 
 namespace subimpact {
 namespace {
@@ -76,17 +77,21 @@ class MatrixMesh final : public BeamMesh {
 
 std::shared_ptr<const BeamMesh> mesh_of(MeshMatrices matrices) {
   const std::size_t n = matrices.mass.size(), n_sections = matrices.curvature.size();
-  const auto require = [](bool holds, const char* what) {
-    if (!holds) throw std::invalid_argument(std::string("mesh_of: ") + what);
-  };
-  require(matrices.mass.cholesky_factor().has_value(), "the mass is not positive definite");
+  require(matrices.mass.half_bandwidth() <= 3,
+          "mesh_of: the mass has a half bandwidth of {}; allowed: up to 3",
+          matrices.mass.half_bandwidth());
+  require(n > 0 && matrices.mass.cholesky_factor().has_value(),
+          "mesh_of: the mass of {} unknowns is not positive definite", n);
   require(matrices.weights.size() == n_sections && matrices.positions.size() == n_sections,
-          "weights and positions must be as many as rows of the curvature");
-  require(matrices.translation.size() == n, "the translation must be as long as the mass");
-  for (const MeshMatrices::Row& row : matrices.curvature) {
-    require(!row.coefficients.empty() && row.first + row.coefficients.size() <= n,
-            "a row of the curvature has unknowns that the mass does not have");
+          "mesh_of: {} weights and {} positions for {} rows of the curvature",
+          matrices.weights.size(), matrices.positions.size(), n_sections);
+  require(matrices.translation.size() == n, "mesh_of: a translation of {} entries for {} unknowns",
+          matrices.translation.size(), n);
+  for (std::size_t i = 0; i < n_sections; ++i) {
+    check_row(i, matrices.curvature[i].first, matrices.curvature[i].coefficients, n);
   }
+  check_functional("struck point", matrices.struck_point, n);
+  check_functional("first end", matrices.first_end, n);
   return std::make_shared<MatrixMesh>(std::move(matrices));
 }
 

@@ -21,15 +21,28 @@ template <auto count>
 constexpr auto work = member<&ComparedRun::work, count>;
 template <auto number>
 constexpr auto errors = member<&ComparedRun::errors, number>;
+template <double EventErrors::*error>
+constexpr auto known_error = [](const ComparedRun& run) {
+  return run.has_errors() ? std::optional(run.errors.*error) : std::nullopt;
+};
 
 StudyColumns<ComparedRun> columns_of(const Comparison& comparison) {
   std::size_t width = narrowest_name;
   for (const ComparedRun& run : comparison.runs) width = std::max(width, run.setting.method.size());
+  std::size_t setting_width = 14;
+  for (const ComparedRun& run : comparison.runs) {
+    if (run.input.solver.max_order) setting_width = 22;
+  }
   const auto time = [](const char* heading) { return Print{heading, ">10", ".2e", us}; };
   const auto share = [](const char* heading) { return Print{heading, ">9", ".1e"}; };
   const auto setting = [](const ComparedRun& run) {
-    return run.setting.fixed_step ? run.setting.text()
-                                  : fmt::format("rtol {:.1e}", run.setting.value);
+    const std::optional<int>& order = run.input.solver.max_order;
+    return (run.setting.fixed_step ? run.setting.text()
+                                   : fmt::format("rtol {:.1e}", run.setting.value)) +
+           (order ? fmt::format(", order {}", *order) : "");
+  };
+  const auto correspondence = [](const ComparedRun& run) {
+    return fmt::format("{}/{}", run.errors.n_corresponding, run.errors.n_reference);
   };
   const auto wall_time = [](const ComparedRun& run) { return duration_text(run.seconds); };
   const auto rtol = [](const ComparedRun& run) {
@@ -39,15 +52,17 @@ StudyColumns<ComparedRun> columns_of(const Comparison& comparison) {
       {"method",
        member<&ComparedRun::setting, &Setting::method>,
        {"method", fmt::format("<{}", width)}},
-      {"", setting, {"setting", "<14"}},
+      {"", setting, {"setting", fmt::format("<{}", setting_width)}},
       {"outcome", [](const ComparedRun& run) { return run.result.outcome.kind; }},
       {"sub_impacts", errors<&EventErrors::n_found>, {"sub-\nimp.", ">6"}},
       {"reference_sub_impacts", errors<&EventErrors::n_reference>},
-      {"corresponding", errors<&EventErrors::n_corresponding>, {"corre-\nspond", ">6"}},
-      {"max_start_difference_s", errors<&EventErrors::starts>, time("start\nmax, us")},
-      {"max_end_difference_s", errors<&EventErrors::ends>, time("end\nmax, us")},
-      {"max_peak_difference_relative", errors<&EventErrors::peak_force>, share("peak\nmax, rel.")},
-      {"max_impulse_difference_relative", errors<&EventErrors::impulse>,
+      {"corresponding", errors<&EventErrors::n_corresponding>},
+      {"", correspondence, {"corre-\nspond", ">7"}},
+      {"max_start_difference_s", known_error<&EventErrors::starts>, time("start\nmax, us")},
+      {"max_end_difference_s", known_error<&EventErrors::ends>, time("end\nmax, us")},
+      {"max_peak_difference_relative", known_error<&EventErrors::peak_force>,
+       share("peak\nmax, rel.")},
+      {"max_impulse_difference_relative", known_error<&EventErrors::impulse>,
        share("impulse\nmax, rel.")},
       {"steps", work<&Work::steps>},
       {"rejected_steps", work<&Work::rejected_steps>},
@@ -58,7 +73,12 @@ StudyColumns<ComparedRun> columns_of(const Comparison& comparison) {
       {"wall_s", work<&Work::wall_seconds>},
       {"", wall_time, {"wall\ntime", ">11"}},
       {"rtol", rtol},
-      {"step_s", member<&ComparedRun::result, &Result::used, &ResolvedSettings::step>}};
+      {"step_s", member<&ComparedRun::result, &Result::used, &ResolvedSettings::step>},
+      {"max_order", member<&ComparedRun::result, &Result::used, &ResolvedSettings::max_order>},
+      {"table", member<&ComparedRun::result, &Result::used, &ResolvedSettings::table>},
+      {"events", member<&ComparedRun::result, &Result::used, &ResolvedSettings::events>},
+      {"reference_error_s", [error = comparison.reference.error](const auto&) { return error; }},
+      {"message", &ComparedRun::message}};
 }
 
 // "+20.29": how much later than in the first model, to a hundredth of a microsecond.
@@ -101,11 +121,11 @@ std::string sentence(const ModelRun& run, const ModelRun& first) {
 std::string comparison_table(const Comparison& comparison) {
   const Result& reference = comparison.reference.result;
   std::string text = printed_table(columns_of(comparison), comparison.runs);
-  text += fmt::format("\nreference: {} at rtol {:.0e}, {}, times to {:.1e} us",
-                      to_string(comparison.reference.input.solver.method),
-                      comparison.reference.input.solver.rtol,
-                      counted(reference.sub_impacts.size(), "sub-impact"),
-                      reference.error_estimate->largest_error * us);
+  text += fmt::format(
+      "\nlargest differences: of the leading sub-impacts, all of which correspond\n"
+      "reference: {}; {}, times to {:.1e} us",
+      comparison.reference.description, counted(reference.sub_impacts.size(), "sub-impact"),
+      comparison.reference.error * us);
   if (reference.error_estimate->first_unresolved) {
     text += fmt::format(" before sub-impact {}; from there on the reference itself is uncertain",
                         *reference.error_estimate->first_unresolved + 1);

@@ -103,6 +103,7 @@ void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
   }
   near_misses_.follow(step, beam, events_ == EventHandling::located);
   supports_.on_step(step, beam, result_);
+  if (observer_ != nullptr) observer_->within_step({step, beam, state_});
 }
 
 void Recorder::add_row_of_force(const ObservedStep& step, const StruckBeam& beam) {

@@ -44,6 +44,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .modes = Modes::where_cheaper,
        .events = EventHandling::interpolated,
        .audit_interval = 256,
+       .order_of_steps = 2,
        .make =
            [](StruckBeam& beam, const IntegratorOptions& options) {
              return std::make_unique<CentralDifference>(beam, *options.fixed_step,
@@ -80,6 +81,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .needs_located_events = true,
        .needs_adaptive_steps_to_yield = true,
        .damping = Damping::of_modes,
+       .order_of_steps = 6,
        .make = make_exponential},
       {.kind = Method::dirk,
        .name = "dirk",
@@ -115,6 +117,12 @@ std::vector<MethodDescriptor> make_descriptors() {
        .audit_interval = 64,
        .order = {{bdf_order_limit, usual_bdf_order}},
        .make = make_cvode_bdf},
+      {.kind = Method::own,
+       .name = "own",
+       .note = "an integrator of the caller's own, of a program that uses the library "
+               "(examples/own_integrator.cpp)",
+       .modes = Modes::where_cheaper,
+       .damping = Damping::any},
   };
 }
 

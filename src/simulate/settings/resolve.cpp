@@ -7,6 +7,7 @@
 #include "model/mesh/modal_mesh.h"
 #include "model/mesh/modes.h"
 #include "numerics/mass_solver.h"
+#include "numerics/units.h"
 #include "simulate/run_parts.h"
 #include "simulate/settings/methods.h"
 #include "simulate/settings/refuse.h"
@@ -88,6 +89,9 @@ void check(const Problem& problem, const Options& options) {
     refuse("beam", "has no mass or stiffness that is positive and finite; check its numbers");
   }
   if (!problem.mesh) refuse("model.mesh", "is missing; give Problem::mesh a mesh");
+  if (problem.check_mesh) {
+    if (const auto broken = broken_rule(*problem.mesh, beam)) refuse("model.mesh", "{}", *broken);
+  }
   if (!problem.contact_law) refuse("contact.law", "is missing; give Problem::contact_law a law");
   if (!positive(options.end_time)) refuse("time.end", "is not a time; allowed: above 0 s");
   check_start(problem);
@@ -101,6 +105,26 @@ void check(const Problem& problem, const Options& options) {
            options.end_time * striker.velocity);
   }
   if (!positive(options.solver.rtol)) refuse("solver.rtol", "is not positive; allowed: above 0");
+}
+
+void check_own(const Problem& problem, const Options& options, const ResolvedSettings& used,
+               const StruckBeam& beam) {
+  if (!problem.integrator || !problem.integrator->make) {
+    refuse("solver.method",
+           "is \"own\", but no integrator is given; give CaseParts::integrator one "
+           "(examples/own_integrator.cpp), or choose another method");
+  }
+  if (!problem.integrator->is_adaptive && !options.solver.step) {
+    refuse("solver.step",
+           "is missing, and the integrator given controls no error; give a step: that of central "
+           "differences is {:.4g} us at most",
+           us * used.critical_step);
+  }
+  if (!problem.integrator->takes_velocities && beam.depends_on_velocity()) {
+    refuse("solver.method",
+           "is \"own\", an integrator of q'' = a(q), but damping makes forces depend on "
+           "velocities; leave the damping out, or set OwnIntegrator::takes_velocities");
+  }
 }
 
 // A mesh of a user's own may give no displacements along the beam.
@@ -148,6 +172,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.reversals = reversals_used(problem, options, beam.sections().can_yield());
   used.max_order = max_order_used(options);
   check_method(options, used, beam.sections().can_yield());
+  if (options.solver.method == Method::own) check_own(problem, options, used, beam);
   check_contact_damping(problem, options, used);
   check_modes(problem.beam, options);
   check_beam_damping(problem.beam.damping, options, beam.sections().can_yield());
@@ -254,7 +279,13 @@ std::unique_ptr<Integrator> RunParts::make_integrator() {
     options.event_functions =
         std::make_shared<ContactEventFunctions>(beam, given.study.pair_detection);
   }
-  return descriptor_of(given.solver.method).make(beam, options);
+  if (given.solver.method != Method::own) {
+    return descriptor_of(given.solver.method).make(beam, options);
+  }
+  auto own = problem.integrator->make(
+      beam, {given.solver.rtol, settings.step, given.solver.max_step, settings.critical_step});
+  if (!own) refuse("solver.method", "is \"own\", but OwnIntegrator::make() returned none");
+  return own;
 }
 
 ResolvedRun::ResolvedRun(std::unique_ptr<RunParts> parts) : parts_(std::move(parts)) {}

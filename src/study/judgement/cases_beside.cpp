@@ -30,6 +30,8 @@ constexpr double most_gain = 2.0;  // of differences
 constexpr double looser = 10.0;    // rtol, for a mesh of 0.7 and in time alone
 constexpr double loosest = 1e-1;
 constexpr double gain_of_tolerance = 1.0 / 3.0;  // a ninth, and room for errors that fall unevenly
+// Of interpolated events: a square or a cube of the step, which falls as slowly as rtol^(1/5).
+constexpr double gain_of_interpolation = 1.0;
 constexpr double shorter = 0.7;                  // step
 
 // Output of a run beside: no rows, and extremes at the instants of the run itself.
@@ -119,7 +121,8 @@ std::vector<CaseBeside> cases_beside_in_time(const Case& input) {
   } else {
     solver.rtol = std::min(looser * solver.rtol, loosest);
     beside.description = fmt::format("rtol = {:.3g}", solver.rtol);
-    beside.gain = gain_of_tolerance;
+    const bool interpolates = events_of(input) == EventHandling::interpolated;
+    beside.gain = interpolates ? gain_of_interpolation : gain_of_tolerance;
   }
   return {beside};
 }

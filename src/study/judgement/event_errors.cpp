@@ -16,22 +16,33 @@ namespace {
 
 constexpr double reference_tolerance = 1e-12;
 
-Case accurate(const Case& input, const char* method) {
+Case accurate(const Case& input, const std::string& method, double rtol) {
   Case chosen = with_method(input, method);
   const Method kind = chosen.solver.method;
   chosen.solver = {};
   chosen.study = {};
   chosen.solver.method = kind;
-  chosen.solver.rtol = reference_tolerance;
+  chosen.solver.table = parse_method_name(method).table;
+  chosen.solver.rtol = rtol;
   return chosen;
 }
 
-void require_completed(const Result& result, const char* method) {
+// Two methods of different kinds that can integrate the equations of a case.
+std::pair<std::string, std::string> methods_of_reference(const Case& input) {
+  const auto is_possible = [&](Method method) { return possible_method(input, method) == method; };
+  const bool in_modes = !may_yield(input) && is_possible(Method::exponential);
+  const bool by_positions = is_possible(Method::nystrom);
+  if (in_modes) return {"exponential", by_positions ? "nystrom" : "erk"};
+  if (by_positions) return {"nystrom", "erk"};
+  return {"erk", "erk:fehlberg-78"};
+}
+
+void require_completed(const Result& result, const std::string& method, double rtol) {
   if (result.outcome.completed() || result.outcome.kind == OutcomeKind::stopped) return;
   throw InvalidCase(
       "time.end",
       fmt::format("lies beyond what the reference run ({} at rtol {:.0e}) reaches: at {:.6g} us {}",
-                  method, reference_tolerance, 1e6 * result.outcome.time, result.outcome.message));
+                  method, rtol, 1e6 * result.outcome.time, result.outcome.message));
 }
 
 // How many leading sub-impacts are known well enough, and why not more; an empty reason means all.
@@ -64,43 +75,48 @@ void set_horizon(Reference& reference, std::size_t n, const std::string& reason)
   reference.horizon_reason = reason;
 }
 
+Reference run_reference(const Case& input, double rtol, const Progress& progress, Jobs jobs) {
+  const auto [first, second] = methods_of_reference(input);
+  Reference reference;
+  reference.input = accurate(input, first, rtol);
+  reference.description =
+      fmt::format("{} at rtol {:.0e} and {} at rtol {:.0e}", first, rtol, second, rtol);
+  reference.horizon = input.end_time;
+  Result& result = reference.result;
+  std::vector<RunBeside> beside = simulate_beside(
+      reference.input, {{accurate(input, second, rtol), ErrorSource::time, reference.description}},
+      jobs, progress, nullptr, result);
+  require_completed(result, first, rtol);
+  for (const RunBeside& other : beside) require_completed(other.result, second, rtol);
+  if (beside.empty() || result.outcome.kind == OutcomeKind::stopped) return reference;
+  judge(reference.input, result, beside);
+  reference.sub_impacts = result.sub_impacts;
+  reference.error = result.error_estimate->largest_error;
+  reference.other = std::move(beside.front().result);
+  return reference;
+}
+
 Reference compute_reference(const Case& input, double largest_error, const Progress& progress,
                             Jobs jobs) {
-  const bool in_modes = !may_yield(input) && input.scene.beam.has_natural_modes();
-  const char* first = in_modes ? "exponential" : "nystrom";
-  const char* second = in_modes ? "nystrom" : "erk";
-  Reference reference;
-  reference.input = accurate(input, first);
-  reference.description = fmt::format("{} at rtol {:.0e} and {} at rtol {:.0e}", first,
-                                      reference_tolerance, second, reference_tolerance);
-
-  Result result;
-  const std::vector<RunBeside> beside = simulate_beside(
-      reference.input, {{accurate(input, second), ErrorSource::time, reference.description}}, jobs,
-      progress, nullptr, result);
-  require_completed(result, first);
-  for (const RunBeside& other : beside) require_completed(other.result, second);
-  if (result.outcome.kind == OutcomeKind::stopped) {
-    reference.result = std::move(result);
-    return reference;
-  }
-  judge(reference.input, result, beside);
-
-  const auto [n, reason] = count_known(result, largest_error);
+  Reference reference = run_reference(input, reference_tolerance, progress, jobs);
+  if (reference.result.outcome.kind == OutcomeKind::stopped) return reference;
+  const auto [n, reason] = count_known(reference.result, largest_error);
   if (n == 0) {
     throw InvalidCase(
         "time.end", fmt::format("is {} s, but no sub-impact that ends before it counts ({}); use a "
                                 "later end",
                                 input.end_time, reason.empty() ? "there is none" : reason));
   }
-  reference.result = std::move(result);
   set_horizon(reference, n, reason);
+  reference.error = 0.0;
   for (const SubImpact& s : reference.sub_impacts) {
     reference.error = std::max({reference.error, *s.start_error, *s.end_error});
   }
   if (reference.horizon < input.end_time) {
+    const std::string second = methods_of_reference(input).second;
     reference.input.end_time = reference.horizon;
     reference.result = simulate(reference.input, progress);
+    reference.other = simulate(accurate(reference.input, second, reference_tolerance), progress);
   }
   return reference;
 }
@@ -139,6 +155,7 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
     errors.impulse =
         std::max(errors.impulse, std::abs(here.impulse - there.impulse) / largest_impulse);
   }
+  errors.n_times = times.size();
   if (!times.empty()) {
     errors.maximum = *std::max_element(times.begin(), times.end());
     errors.first = times.front();
@@ -148,13 +165,21 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
   return errors;
 }
 
+bool are_same_methods(const Result& one, const Result& other) {
+  const ResolvedSettings &a = one.used, &b = other.used;
+  return one.given.solver.method == other.given.solver.method && a.table == b.table &&
+         a.step == b.step && a.events == b.events && a.reversals == b.reversals &&
+         a.max_order == b.max_order && a.position_tolerance == b.position_tolerance;
+}
+
 EventErrors event_errors(const Result& run, const Reference& reference) {
-  EventErrors errors = event_errors(run.sub_impacts, reference.sub_impacts);
+  const bool is_own = are_same_methods(run, reference.result);
+  const Result& there = is_own ? reference.other : reference.result;
+  EventErrors errors =
+      event_errors(run.sub_impacts, is_own ? there.sub_impacts : reference.sub_impacts);
   const double unit = reference.input.scene.bodies().velocity_scale();
-  errors.striker_velocity =
-      std::abs(run.striker_velocity - reference.result.striker_velocity) / unit;
-  errors.beam_velocity =
-      std::abs(run.beam_mean_velocity - reference.result.beam_mean_velocity) / unit;
+  errors.striker_velocity = std::abs(run.striker_velocity - there.striker_velocity) / unit;
+  errors.beam_velocity = std::abs(run.beam_mean_velocity - there.beam_mean_velocity) / unit;
   return errors;
 }
 
@@ -188,14 +213,18 @@ Result run_trial(Trial& trial, const Reference& reference, const Progress& progr
       trial.message =
           fmt::format("at {:.6g} us {}", 1e6 * result.outcome.time, result.outcome.message);
     } else if (errors.unmatched) {
-      trial.message = fmt::format("{} instead of {}; {}; {}", counted(errors.n_found, "sub-impact"),
-                                  errors.n_reference, leading_words(errors.n_corresponding),
-                                  errors.unmatched->description);
+      const std::string within =
+          errors.n_times > 0 ? fmt::format(" within {:.3g} us", 1e6 * errors.maximum) : "";
+      trial.message = fmt::format(
+          "{} instead of {}; {}{}; {}", counted(errors.n_found, "sub-impact"), errors.n_reference,
+          leading_words(errors.n_corresponding), within, errors.unmatched->description);
+    } else if (are_same_methods(result, reference.result)) {
+      trial.message = "the reference's own run, beside its other one";
     }
     return result;
   } catch (const InvalidCase& error) {
     trial.verdict = Verdict::refused;
-    trial.message = error.key + " " + error.what();
+    trial.message = error.what();
     return {};
   }
 }

@@ -162,7 +162,7 @@ void set_mesh(Case& chosen, const Case& input, const GivenKeys& given, const std
         error.key,
         fmt::format("{} (beam.theory is open, and this scene {} shear: {}; to {}, write "
                     "beam.theory = \"{}\")",
-                    error.what(), shears ? "needs" : "does not need", why,
+                    error.message, shears ? "needs" : "does not need", why,
                     shears ? "leave it out" : "have it", shears ? "rayleigh" : "timoshenko"));
   }
 }

@@ -297,7 +297,7 @@ class Search {
     try {
       check_memory(resolve(*finer).settings());
     } catch (const InvalidCase& error) {
-      return refuse(error.key, {Reason::Kind::memory, error.key + " " + error.what()});
+      return refuse(error.key, {Reason::Kind::memory, error.what()});
     }
     return finer;
   }

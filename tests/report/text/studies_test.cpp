@@ -13,7 +13,7 @@ Trial point(const std::string& method, double rtol, double error, double seconds
   p.verdict = verdict;
   p.errors.maximum = error;
   p.errors.median = 0.5 * error;
-  p.errors.n_reference = p.errors.n_found = p.errors.n_corresponding = 7;
+  p.errors.n_reference = p.errors.n_found = p.errors.n_corresponding = p.errors.n_times = 7;
   p.seconds = seconds;
   p.repeats = 3;
   p.work.right_hand_sides = 1234;

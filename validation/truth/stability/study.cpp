@@ -1,6 +1,7 @@
 // Largest stable steps, damping and growth of methods, measured on the published beam and predicted
-// from their coefficients. Writes critical_steps.csv, stiff_contact.csv, damping.csv and
-// bdf_growth.csv into the directory that is named, if one is. Exit status: 0 every claim holds.
+// from their coefficients; sub-impacts within one step, and layers against the exact section, up to
+// 2 ms if a directory is named. Writes a CSV file of each into that directory. Exit status: 0 every
+// claim holds.
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@
 #include "stability/coefficients.h"
 #include "stability/free_vibration.h"
 #include "stability/steps.h"
+#include "stability/within_steps.h"
 #include "subimpact/io/case_file.h"
 
 namespace {
@@ -171,6 +173,46 @@ void study_damping(const std::filesystem::path& directory) {
   claim_near(high[5], 9.39, 0.7, "range of growth of order 5, to");
 }
 
+template <auto number>
+constexpr auto errors = [](const LayerPoint& row) { return row.errors.*number; };
+
+void study_pairs(const std::filesystem::path& directory) {
+  using Row = MissedPairs;
+  const StudyColumns<Row> columns = {
+      {"step_s", &Row::step, {"step, us", ">9", ".3g", us}},
+      {"runs", &Row::n_runs},
+      {"right_with_search", &Row::right_with_search, {"all found, pairs looked for", ">28"}},
+      {"right_without", &Row::right_without, {"all found, ends of steps only", ">28"}},
+      {"shortest_s", &Row::shortest, {"shortest, us", ">13", ".3g", us}}};
+  Case input = paper_strike(501);
+  input.end_time = directory.empty() ? 0.25e-3 : 2e-3;
+  const std::vector<Row> rows = missed_pairs(input);
+  write(directory, "missed_pairs.csv", columns, rows);
+  claim(rows.at(0).shortest > rows.at(0).step, "nothing is as short as the shortest step");
+  claim(rows.at(0).right_without == rows.at(0).right_with_search,
+        "which misses nothing either way");
+  claim(rows.at(5).right_without < rows.at(5).right_with_search - 5, "steps of 8 us miss pairs");
+}
+
+void study_layers(const std::filesystem::path& directory) {
+  const StudyColumns<LayerPoint> columns = {
+      {"layers", &LayerPoint::layers, {"layers", ">7"}},
+      {"sub_impacts", errors<&EventErrors::n_found>, {"sub-impacts", ">11"}},
+      {"exact_sub_impacts", errors<&EventErrors::n_reference>, {"exact", ">6"}},
+      {"corresponding", errors<&EventErrors::n_corresponding>, {"correspond", ">12"}},
+      {"median_difference_s", errors<&EventErrors::median>, {"median, us", ">14", ".3e", us}},
+      {"max_difference_s", errors<&EventErrors::maximum>, {"largest, us", ">12", ".3e", us}}};
+  Case input = paper_strike(501);
+  input.end_time = directory.empty() ? 0.6e-3 : 2e-3;
+  const std::vector<LayerPoint> points = layers_against_exact(input).points;
+  write(directory, "layers.csv", columns, points);
+  const EventErrors &ten = points.at(0).errors, &forty = points.at(2).errors,
+                    &finest = points.at(6).errors;
+  claim(!ten.all_correspond() && forty.all_correspond() && finest.all_correspond(),
+        "ten layers miscount, forty do not");
+  claim_near(std::log2(forty.median / finest.median) / 4.0, 2.0, 0.4, "order of layers");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -180,6 +222,8 @@ int main(int argc, char** argv) {
   study_growth();
   study_stiff_contact(directory);
   study_damping(directory);
+  study_pairs(directory);
+  study_layers(directory);
   fmt::print("\nevery claim of validation/truth/stability/README.md {}\n",
              all_hold ? "holds" : "but those above");
   return all_hold ? 0 : 1;

@@ -87,10 +87,10 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
 /// interface. Requirements: Mass is positive definite, of half bandwidth up to 3; curvatures(),
 /// bending_forces() and section_stencil() are one and the same B; the highest frequency is not
 /// below that of the mesh (time steps follow from it). The functions are pure: runs in several
-/// threads may share a mesh. A run whose mesh breaks these rules gains or loses energy and ends as
-/// `inaccurate`. Fixed at present: one generalised strain per section that may yield, the
-/// curvature, and one elastic bending stiffness for all sections (the argument
-/// `bending_stiffness`).
+/// threads may share a mesh. broken_rule() finds what breaks these rules before a run; what it does
+/// not find gains or loses energy, and the run ends as `inaccurate`. Fixed at present: one
+/// generalised strain per section that may yield, the curvature, and one elastic bending stiffness
+/// for all sections (the argument `bending_stiffness`).
 class BeamMesh {
  public:
   /// Which part of the beam a mesh models.
@@ -232,5 +232,10 @@ class BeamMesh {
   std::vector<StoredStencil> stencils_;
   std::vector<double> stencil_coefficients_;  // of all, one after another
 };
+
+/// The first rule of BeamMesh that a mesh of this beam breaks, in one sentence with number and
+/// place; nothing if it keeps all that can be seen without a run. A case with a mesh of the user's
+/// own is refused for it.
+std::optional<std::string> broken_rule(const BeamMesh& mesh, const Beam& beam);
 
 }  // namespace subimpact

@@ -18,6 +18,8 @@ namespace subimpact {
 struct Reference {
   Case input;                          ///< of the run; ends at the horizon
   Result result;                       ///< up to the horizon
+  Result other;                        ///< of the second method, against which errors of the first
+                                       ///< one's own run are measured
   std::vector<SubImpact> sub_impacts;  ///< those that count, with their stated errors
   double error = 0.0;                  ///< s, the largest error stated for them
   double horizon = 0.0;                ///< s, up to which runs are compared
@@ -29,15 +31,19 @@ struct Reference {
 /// middle of the separation that follows. `reason`, in words, is used where there are more.
 void set_horizon(Reference& reference, std::size_t n, const std::string& reason);
 
-/// Two runs by different methods, in parallel on two cores: `exponential` and `nystrom` at rtol =
-/// 1e-12 if the beam is elastic, else `nystrom` and `erk`. The error stated for an event follows
-/// from the difference of the two (study/judgement.h).
+/// Two runs of a case up to its end, by methods of different kinds, in parallel on two cores:
+/// `exponential` and `nystrom` if the beam is elastic, else `nystrom` and `erk`; where damping
+/// rules these out, `exponential` and `erk`, or two tables of `erk`. The error stated for an event
+/// follows from the difference of the two (study/judgement.h). Throws InvalidCase if either fails.
+Reference run_reference(const Case& input, double rtol, const Progress& progress = {},
+                        Jobs jobs = 2);
+
+/// The same at rtol = 1e-12, up to a horizon.
 ///
 /// A sub-impact counts if it is certain and its stated error is at most `largest_error` (s):
 /// sub-impacts that graze amplify small differences until no computation can predict the next
 /// event. The horizon lies in the middle of the separation after the last that counts, or at the
-/// case's end if that is separation too. Throws InvalidCase if nothing counts, if either run fails,
-/// or for the case itself.
+/// case's end if that is separation too. Throws InvalidCase if nothing counts too.
 Reference compute_reference(const Case& input, double largest_error, const Progress& progress = {},
                             Jobs jobs = 2);
 
@@ -47,6 +53,7 @@ struct EventErrors {
   std::size_t n_reference = 0;      ///< sub-impacts that count
   std::size_t n_found = 0;          ///< of the run, before the horizon
   std::size_t n_corresponding = 0;  ///< leading ones
+  std::size_t n_times = 0;          ///< times compared; without any there are no errors
   double median = 0.0;              ///< s
   double maximum = 0.0;             ///< s
   double first = 0.0;               ///< s, of the first end
@@ -69,6 +76,9 @@ struct EventErrors {
 
 /// For a run of the reference's scene up to its horizon.
 EventErrors event_errors(const Result& run, const Reference& reference);
+
+/// Whether two runs of a scene have the same method and the same settings of it.
+bool are_same_methods(const Result& one, const Result& other);
 
 /// Errors against any list of sub-impacts; velocities are left at 0.
 EventErrors event_errors(const std::vector<SubImpact>& run,
@@ -97,12 +107,19 @@ struct Trial {
   Case input;
   Verdict verdict = Verdict::not_run;
   std::string message;  ///< why it is not right, in words
-  EventErrors errors;   ///< meaningful if right or of wrong count
+  EventErrors errors;   ///< where has_errors()
   Work work;
   double seconds = 0.0;  ///< wall time of one run, set-up included
   int repeats = 0;
   double energy_error = 0.0;  ///< largest relative one of the run
+  /// At a fixed step: ln(e'/e)/ln(h'/h) with the largest error e' of the longer step h' before, if
+  /// both runs are right and their errors well above that of the reference.
+  std::optional<double> order = {};
 
+  /// Whether the run completed, and any time could be compared.
+  bool has_errors() const {
+    return (verdict == Verdict::right || verdict == Verdict::wrong_count) && errors.n_times > 0;
+  }
   bool reaches(double error) const { return verdict == Verdict::right && errors.maximum <= error; }
 };
 
