@@ -28,7 +28,8 @@ int main() {
   double before = 0.0, order = 0.0;
   for (const double step : {0.2e-6, 0.1e-6, 0.05e-6}) {
     strike.solver.step = step;
-    const auto compared = subimpact::compare(strike, {"own", "central-difference", "erk:zonneveld"});
+    const auto compared =
+        subimpact::compare(strike, {"own", "central-difference", "erk:zonneveld"});
     std::printf("%s\n", subimpact::comparison_table(compared).c_str());
     const auto& own = compared.runs.front();
     if (!own.has_errors() || own.errors.unmatched) return 1;

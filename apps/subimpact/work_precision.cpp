@@ -43,7 +43,7 @@ int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCas
   OutputDirectory directory(command.directory, "work-precision", case_id(cases.front().input));
   std::vector<WorkPrecision> studies;
   for (const auto& [label, input] : cases) {
-    studies.push_back({label, {}, {}});
+    studies.push_back({label, {}, {}, {}});
     WorkPrecisionOptions options;
     options.methods = command.methods;
     options.point_seconds = command.point_seconds;

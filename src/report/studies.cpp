@@ -17,7 +17,9 @@ namespace subimpact {
 namespace {
 
 template <auto number>
-constexpr auto errors = [](const auto& row) { return row.errors.*number; };
+constexpr auto errors = [](const auto& row) {
+  return row.has_run() ? std::optional(row.errors.*number) : std::nullopt;
+};
 
 }  // namespace
 
@@ -83,28 +85,27 @@ struct Point {
 
 template <auto... members>
 constexpr auto of_trial = member<&Point::trial, members...>;
-template <auto found>
-constexpr auto trial_errors = of_trial<&Trial::errors, found>;
+// Of runs alone; a setting that did not run has none.
+template <auto... members>
+constexpr auto of_run = [](const Point& row) {
+  return row.trial.has_run() ? std::optional(of_trial<members...>(row)) : std::nullopt;
+};
 template <double EventErrors::*error>
 constexpr auto known_error = [](const Point& row) {
   return row.trial.has_errors() ? std::optional(row.trial.errors.*error) : std::nullopt;
 };
-template <auto count>
-constexpr auto work = of_trial<&Trial::work, count>;
 
-bool has_run(const Point& row) {
-  return row.trial.verdict != Verdict::not_run && row.trial.verdict != Verdict::refused;
-}
-
-bool has_errors(const Point& row) { return row.trial.has_errors(); }
-
-std::string correspondence(const Point& row) {
-  return fmt::format("{:>4}/{:<4}", row.trial.errors.n_corresponding, row.trial.errors.n_reference);
+std::optional<std::string> correspondence(const Point& row) {
+  const EventErrors& errors = row.trial.errors;
+  if (!row.trial.has_errors()) return std::nullopt;
+  return fmt::format("{:>4}/{:<4}", errors.n_corresponding, errors.n_reference);
 }
 
 const StudyColumns<Point>& point_columns() {
   const auto setting = [](const Point& row) { return row.trial.setting.text(); };
-  const auto wall_time = [](const Point& row) { return duration_text(row.trial.seconds); };
+  const auto wall_time = [](const Point& row) {
+    return row.trial.has_run() ? std::optional(duration_text(row.trial.seconds)) : std::nullopt;
+  };
   const auto time = [](const char* heading) { return Print{heading, ">9", ".1e", us}; };
   const auto share = [](const char* heading) { return Print{heading, ">9", ".1e"}; };
   const auto odd = [](double UnmatchedSubImpact::*length) {
@@ -120,10 +121,10 @@ const StudyColumns<Point>& point_columns() {
       {"setting", of_trial<&Trial::setting, &Setting::value>},
       {"", setting, {"setting", "<14"}},
       {"verdict", of_trial<&Trial::verdict>, {"verdict", "<12"}},
-      {"reference_sub_impacts", trial_errors<&EventErrors::n_reference>},
-      {"sub_impacts", trial_errors<&EventErrors::n_found>},
-      {"corresponding", trial_errors<&EventErrors::n_corresponding>},
-      {"", correspondence, {"corre-\nspond", ">9"}, has_errors},
+      {"reference_sub_impacts", of_run<&Trial::errors, &EventErrors::n_reference>},
+      {"sub_impacts", of_run<&Trial::errors, &EventErrors::n_found>},
+      {"corresponding", of_run<&Trial::errors, &EventErrors::n_corresponding>},
+      {"", correspondence, {"corre-\nspond", ">9"}},
       {"first_odd_s", odd(&UnmatchedSubImpact::start)},
       {"odd_duration_s", odd(&UnmatchedSubImpact::duration)},
       {"median_error_s", known_error<&EventErrors::median>, time("times,\nmedian us")},
@@ -136,16 +137,18 @@ const StudyColumns<Point>& point_columns() {
       {"striker_velocity_error", known_error<&EventErrors::striker_velocity>,
        share("striker,\nrel.")},
       {"beam_velocity_error", known_error<&EventErrors::beam_velocity>},
-      {"wall_s", of_trial<&Trial::seconds>},
-      {"", wall_time, {"wall\ntime", ">10"}, has_run},
-      {"repeats", of_trial<&Trial::repeats>},
-      {"setup_s", work<&Work::setup_seconds>},
-      {"steps", work<&Work::steps>},
-      {"rejected_steps", work<&Work::rejected_steps>},
-      {"right_hand_sides", work<&Work::right_hand_sides>, {"right-hand\nsides", ">10"}, has_run},
-      {"mass_solves", work<&Work::mass_solves>, {"mass\nsolves", ">10"}, has_run},
-      {"jacobians", work<&Work::jacobians>},
-      {"factorisations", work<&Work::factorisations>, {"factori-\nsations", ">8"}, has_run},
+      {"wall_s", of_run<&Trial::seconds>},
+      {"", wall_time, {"wall\ntime", ">10"}},
+      {"repeats", of_run<&Trial::repeats>},
+      {"setup_s", of_run<&Trial::work, &Work::setup_seconds>},
+      {"steps", of_run<&Trial::work, &Work::steps>},
+      {"rejected_steps", of_run<&Trial::work, &Work::rejected_steps>},
+      {"right_hand_sides",
+       of_run<&Trial::work, &Work::right_hand_sides>,
+       {"right-hand\nsides", ">10"}},
+      {"mass_solves", of_run<&Trial::work, &Work::mass_solves>, {"mass\nsolves", ">10"}},
+      {"jacobians", of_run<&Trial::work, &Work::jacobians>},
+      {"factorisations", of_run<&Trial::work, &Work::factorisations>, {"factori-\nsations", ">8"}},
       {"message", of_trial<&Trial::message>},
   };
   return columns;
@@ -174,13 +177,10 @@ std::string bound_text(const MethodOrder& order) {
 
 std::string order_text(const WorkPrecision& study) {
   if (study.orders.empty()) return {};
-  const auto whole = [](const MethodOrder& order) {
-    return order.smooth > 0 ? std::optional(order.smooth) : std::nullopt;
-  };
   const StudyColumns<MethodOrder> columns = {
       {"", &MethodOrder::method, {"orders at fixed steps", "<22"}},
-      {"", whole, {"where forces\nare smooth", ">12"}},
-      {"", &MethodOrder::most, {"at most\nhere", ">8", ".3g"}},
+      {"", &MethodOrder::smooth, {"where forces\nare smooth", ">12"}},
+      {"", &MethodOrder::most, {"in the\nlimit", ">8", ".3g"}},
       {"", &MethodOrder::observed, {"observed", ">8", ".2f"}},
       {"", [](const MethodOrder& order) { return " " + bound_text(order); }, {" ", "<"}}};
   return '\n' + printed_table(columns, study.orders);

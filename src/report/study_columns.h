@@ -23,14 +23,10 @@ struct Print {
 template <class Row>
 struct StudyColumn : Column<Row> {
   template <class Value>
-  StudyColumn(std::string name_in_file, Value value, Print how = {},
-              bool (*printed_where)(const Row&) = nullptr)
-      : Column<Row>(std::move(name_in_file), value),
-        print(std::move(how)),
-        is_printed(printed_where) {}
+  StudyColumn(std::string name_in_file, Value value, Print how = {})
+      : Column<Row>(std::move(name_in_file), value), print(std::move(how)) {}
 
   Print print;
-  bool (*is_printed)(const Row&);  ///< null: in all rows; elsewhere the column is blank
 };
 
 template <class Row>
@@ -88,9 +84,8 @@ std::string printed_heading(const StudyColumns<Row>& columns) {
 
 template <class Row>
 std::string printed_row(const StudyColumns<Row>& columns, const Row& row, std::size_t index = 0) {
-  return printed_line(columns, [&](const StudyColumn<Row>& column) {
-    return !column.is_printed || column.is_printed(row) ? column.cell(row, index) : Cell();
-  });
+  return printed_line(columns,
+                      [&](const StudyColumn<Row>& column) { return column.cell(row, index); });
 }
 
 template <class Row>

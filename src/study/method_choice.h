@@ -23,7 +23,7 @@ bool central_differences_suit(Case input);
 /// Whether the method of a case chooses its steps by a tolerance where no step is given.
 bool takes_tolerance(const Case& input);
 
-/// The order of a method at fixed steps where forces are smooth; 0: it has none.
+/// The order of a method at fixed steps where forces are smooth; 0: it has none, or shortens them.
 int order_of(const Case& input, const ResolvedSettings& used);
 
 /// Whether resolve() takes the case.

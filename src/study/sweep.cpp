@@ -98,7 +98,7 @@ int order_of(const Case& input, const ResolvedSettings& used) {
   for (const MethodTable& table : method_tables()) {
     if (table.method == input.solver.method && table.name == used.table) return table.order;
   }
-  return descriptor_of(input.solver.method).order_of_steps;
+  return descriptor_of(input.solver.method).has_fixed_steps() ? 2 : 0;  // central differences
 }
 
 std::string Setting::text() const {

@@ -18,7 +18,7 @@ constexpr double reference_share = 0.1;
 // A tolerance ten times tighter costs up to this many times more (order 3: 2.2).
 constexpr double growth_of_a_decade = 2.2;
 // Errors show an order where they are so many times that of the reference.
-constexpr double shown_order = 10.0;
+constexpr double shown_order = 4.0;
 constexpr double whole = 0.01;  // distance of an exponent from a whole number
 
 // Runs the case once to warm up, whose result counts, then again until the options' number of
@@ -57,7 +57,7 @@ std::optional<double> order_between(const Trial& longer, const Trial& point, dou
                      point.verdict == Verdict::right && longer.errors.maximum > least &&
                      point.errors.maximum > least;
   if (!shows) return std::nullopt;
-  return std::log(longer.errors.maximum / point.errors.maximum) /
+  return std::log(longer.errors.rms / point.errors.rms) /
          std::log(longer.setting.value / point.setting.value);
 }
 
@@ -92,12 +92,17 @@ void run_sweep(const Case& compared, std::span<const Setting> sweep,
   }
 }
 
+// Observed where three steps in a row are clear of those too long for an order, and of the error of
+// the reference.
 MethodOrder order_of_sweep(const Case& compared, const Setting& fixed, const WorkPrecision& study) {
   const Case input = with_setting(compared, fixed);
   const ResolvedSettings used = resolve(input).settings();
   MethodOrder order{fixed.method, order_of(input, used), {}, OrderBound::none, {}};
+  const Trial* before = nullptr;
   for (const Trial& point : study.points) {
-    if (point.setting.method == fixed.method && point.order) order.observed = point.order;
+    if (point.setting.method != fixed.method) continue;
+    if (before != nullptr && before->order && point.order) order.observed = point.order;
+    before = &point;
   }
   const double n = used.contact_exponent;
   const auto bound = [&](OrderBound by, std::optional<double> most) {
@@ -133,7 +138,9 @@ WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& opti
     for (const auto& part : {std::span(sweep.begin(), fixed), std::span(fixed, sweep.end())}) {
       if (!study.interrupted) run_sweep(compared, part, options, study);
     }
-    if (fixed != sweep.end()) study.orders.push_back(order_of_sweep(compared, *fixed, study));
+    if (fixed == sweep.end() || study.interrupted) continue;
+    MethodOrder order = order_of_sweep(compared, *fixed, study);
+    if (order.smooth > 0) study.orders.push_back(std::move(order));
   }
   return study;
 }

@@ -81,7 +81,8 @@ void break_meshes() {
   }
   for (const std::size_t i : {std::size_t{0}, std::size_t{7}, bars - 2}) {
     for (const double weight : {nan, infinite, 0.0, -0.01}) {
-      expect_mesh("the weight of section " + std::to_string(i), [&](M& m) { m.weights[i] = weight; });
+      expect_mesh("the weight of section " + std::to_string(i),
+                  [&](M& m) { m.weights[i] = weight; });
     }
     for (const double x : {nan, infinite, -0.1, 1.5}) {
       expect_mesh("section " + std::to_string(i) + " lies at", [&](M& m) { m.positions[i] = x; });
@@ -121,7 +122,8 @@ void break_meshes() {
 class Faulty final : public BeamMesh {
  public:
   enum class Fault { curvatures, forces, slow, not_a_number, struck_section, none };
-  explicit Faulty(Fault fault) : BeamMesh(bars + 1, 0, false), good_(mesh_of(chain())), fault_(fault) {
+  explicit Faulty(Fault fault)
+      : BeamMesh(bars + 1, 0, false), good_(mesh_of(chain())), fault_(fault) {
     mass_ = good_->mass();
     weights_.assign(good_->section_weights().begin(), good_->section_weights().end());
     positions_.assign(good_->section_positions().begin(), good_->section_positions().end());
@@ -206,7 +208,8 @@ void break_laws() {
     law.residual = [](ContactHistory history) { return 2.0 * history.max_indentation; };
     law.threshold = [](ContactHistory history) { return history.max_indentation; };
   });
-  expect_law("residual indentation", [](FaultyLaw& law) { law.residual = [](auto) { return -1e-6; }; });
+  expect_law("residual indentation",
+             [](FaultyLaw& law) { law.residual = [](auto) { return -1e-6; }; });
   expect_law("threshold falls", [](FaultyLaw& law) {
     law.threshold = [](ContactHistory history) { return 1e-2 - history.max_indentation; };
   });
@@ -259,26 +262,27 @@ void break_integrators() {
   expect_named(with({.make = none}, 1e-7), "make() returned none", "returns none");
   expect_named(with({.make = none}, {}), "solver.step is missing", "no step");
   using Fault = FaultyIntegrator::Fault;
-  for (const auto& [fault, words] :
-       {std::pair(Fault::euler, "of your own"), {Fault::still, ""}, {Fault::not_a_number, ""},
-        {Fault::gives_up, "own() failed with TOO_HARD"}}) {
+  for (const auto& [fault, words] : {std::pair(Fault::euler, "of your own"),
+                                     {Fault::still, ""},
+                                     {Fault::not_a_number, ""},
+                                     {Fault::gives_up, "own() failed with TOO_HARD"}}) {
     const auto make = [fault](SecondOrderOde& ode, const StepControl& control) {
       return std::make_unique<FaultyIntegrator>(ode, *control.step, fault);
     };
     if (fault == Fault::still) continue;  // time goes on, and nothing moves: no contact ever
-    expect_named(with({.make = make}, 1e-7), words, "an integrator, fault " + std::to_string(int(fault)));
+    expect_named(with({.make = make}, 1e-7), words,
+                 "an integrator, fault " + std::to_string(int(fault)));
   }
 }
 
 TEST(AHundredBrokenParts, AreNamedByRuleNumberAndPlaceAndNoneCompletesOrBlamesTheTolerance) {
   n_broken = 0;
   break_meshes();
-  for (const auto& [fault, words] :
-       {std::pair(Faulty::Fault::curvatures, "curvatures() gives"),
-        {Faulty::Fault::forces, "bending_forces() gives"},
-        {Faulty::Fault::slow, "its highest frequency is"},
-        {Faulty::Fault::not_a_number, "its highest frequency is"},
-        {Faulty::Fault::struck_section, "its struck section is 99"}}) {
+  for (const auto& [fault, words] : {std::pair(Faulty::Fault::curvatures, "curvatures() gives"),
+                                     {Faulty::Fault::forces, "bending_forces() gives"},
+                                     {Faulty::Fault::slow, "its highest frequency is"},
+                                     {Faulty::Fault::not_a_number, "its highest frequency is"},
+                                     {Faulty::Fault::struck_section, "its struck section is 99"}}) {
     expect_named(answer([&](Case& input) { input.parts.mesh = std::make_shared<Faulty>(fault); }),
                  words, words);
   }

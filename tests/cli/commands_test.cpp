@@ -70,11 +70,10 @@ TEST(Explain, NotesKeysWithoutEffectAndWarnsOfDoubtfulUnits) {
 
 TEST(Stability, WritesTheOutcomesOfTheMethodsAskedFor) {
   const TemporaryDirectory directory;
-  expect_in(
-      run_in(directory, paper("stability", {"model.segments=101", "time.end=3e-4"},
-                              {"--methods", "central-difference", "--out", "s"}))
-          .output,
-      "central-difference, forced", "omega_max h");
+  expect_in(run_in(directory, paper("stability", {"model.segments=101", "time.end=3e-4"},
+                                    {"--methods", "central-difference", "--out", "s"}))
+                .output,
+            "central-difference, forced", "omega_max h");
   EXPECT_TRUE(directory.has("s/outcomes.csv"));
 }
 

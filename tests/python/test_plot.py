@@ -210,20 +210,52 @@ def test_a_histogram_marks_mean_and_quantiles():
 
 def test_studies_are_drawn_of_their_tables(tmp_path):
     drawn = plot.draw_directory(STABILITY, tmp_path, ["svg"])
-    assert list(drawn.captions) == ["outcomes", "missed_pairs", "layers"]
-    for name, said in {"outcomes": ">bdf, order up to 2<", "missed_pairs": "strikes (of 40) wholly found"}.items():
-        assert said in (tmp_path / f"{name}.svg").read_text(encoding="utf-8")
+    assert list(drawn.captions) == ["outcomes"]
+    assert ">bdf, order up to 2<" in (tmp_path / "outcomes.svg").read_text(encoding="utf-8")
 
 
-def test_work_precision_tells_right_wrong_and_failed_runs_apart():
-    points = table(label=["elastic section"] * 4, method=["erk"] * 4, verdict=["right", "wrong count", "unstable", "refused"],
-                   max_error_s=[1e-9, 1e-7, np.nan, np.nan], odd_duration_s=[np.nan, 3e-6, np.nan, np.nan],
-                   wall_s=[0.2, 0.1, 0.1, np.nan])
+def test_work_precision_fills_no_mark_below_the_error_of_the_reference_and_tells_wrong_and_failed_runs_apart():
+    points = table(label=["elastic section"] * 5, method=["erk"] * 5, kind=["rtol"] * 5,
+                   verdict=["right", "right", "wrong count", "unstable", "refused"],
+                   max_error_s=[1e-9, 1e-14, 1e-7, np.nan, np.nan], odd_duration_s=[np.nan, np.nan, 3e-6, np.nan, np.nan],
+                   reference_error_s=[1e-12] * 5, observed_order=[np.nan] * 5, wall_s=[0.2, 0.3, 0.1, 0.1, np.nan])
     axes = plot.work_precision(points)
-    marks = {line.get_marker() + line.get_markerfacecolor(): line.get_xdata() for line in axes.lines}
-    np.testing.assert_allclose(marks["o" + COLOURS[0]], [1e-3])
-    np.testing.assert_allclose(marks["owhite"], [3.0])  # the sub-impact that was lost or invented
-    assert len(marks["x" + COLOURS[0]]) == 1 and marks["x" + COLOURS[0]][0] > 3
+    marks = [(line.get_marker(), line.get_markerfacecolor(), list(line.get_xdata())) for line in axes.lines
+             if line.get_linestyle() == "None" and len(line.get_xdata())]
+    assert [(mark, face) for mark, face, _ in marks] == [("o", COLOURS[0]), ("o", "white"), ("x", COLOURS[0]), ("x", COLOURS[0])]
+    np.testing.assert_allclose([x for _, _, (x,) in marks[:3]], [1e-3, 1e-8, 3.0])  # where they are; the last: lost or invented
+    assert marks[3][2][0] > 3 and axes.get_xlim()[0] <= 1e-8
+
+
+def test_no_two_curves_of_fourteen_methods_look_alike():
+    names = [f"erk:{k}" for k in range(14)]
+    n = len(names)
+    points = table(label=["a"] * n, method=names, kind=["rtol"] * n, verdict=["right"] * n, max_error_s=[1e-9] * n,
+                   odd_duration_s=[np.nan] * n, reference_error_s=[1e-12] * n, observed_order=[np.nan] * n, wall_s=[0.1] * n)
+    lines = plot.work_precision(points).get_legend().get_lines()[:n]
+    assert len({(line.get_color(), line.get_marker()) for line in lines}) == n
+
+
+def test_studies_of_methods_are_tables_in_python_and_their_figures(tmp_path):
+    case = si.Case.from_text(ELASTIC, "e.toml").changed({"time.end": 2e-4})
+    runs, matches = si.compare(case, ["nystrom", "erk:verner"])
+    assert list(runs["method"]) == ["nystrom", "erk:verner"] and (runs["max_end_difference_s"] < 1e-9).all()
+    assert set(matches["method"]) == {"nystrom", "erk:verner"} and plot.differences(matches).get_yscale() == "log"
+    points = si.work_precision(case, ["erk:dormand-prince"], point_seconds=0.2)
+    assert set(points["kind"]) == {"rtol", "step"} and plot.work_precision(points) is not None
+    outcomes = si.stability(case, ["central-difference"])
+    assert {"right", "refused"} <= set(outcomes["verdict"]) and len(plot.outcomes(outcomes)) == 2
+    with pytest.raises(si.CaseError, match="leapfrog"):
+        si.compare(case, ["leapfrog"])
+
+
+def test_a_comparison_and_a_sensitivity_have_figures(tmp_path, program):
+    (tmp_path / "e.toml").write_text(ELASTIC)
+    case = tmp_path / "e.toml"
+    for arguments, name in ((("compare", case, "--methods", "erk"), "differences"),
+                            (("sensitivity", case, "--by", "striker.velocity"), "sensitivity")):
+        program(*arguments, "--set", "time.end=3e-4", "--out", tmp_path / name)
+        assert list(plot.draw_directory(tmp_path / name, formats=["svg"]).captions) == [name]
 
 
 def test_a_table_that_is_cut_short_is_refused(tmp_path):

@@ -52,6 +52,68 @@ TEST(ATreatmentOfEvents, IsNamedAfterAPlusSign) {
   EXPECT_THROW(compare(input, {"erk+librari"}), InvalidCase);
 }
 
+TEST(ASettingGiven, HoldsForEveryMethodThatHasItOrIsRefusedByName) {
+  Case input = elastic_case(1e-5, 51);
+  input.solver.step = 1e-7;
+  for (const ComparedRun& run : compare(input, {"nystrom", "erk:zonneveld", "dirk"}).runs) {
+    EXPECT_EQ(run.result.used.step, 1e-7) << run.setting.method;
+    EXPECT_EQ(run.setting.text(), "step 0.1 us");
+  }
+  expect_in(message_of<InvalidCase>([&] {
+              compare(input, {"erk", "adams"});
+            }),
+            "solver.step is 1e-07 s, but adams chooses step and order together");
+  input.solver.step.reset();
+  input.solver.max_order = 3;
+  const Comparison orders = compare(input, {"adams", "bdf", "erk"});
+  EXPECT_EQ(orders.runs[0].result.used.max_order, 3);
+  EXPECT_EQ(orders.runs[1].result.used.max_order, 3);
+  EXPECT_EQ(orders.runs[2].result.used.max_order, std::nullopt);
+  expect_in(message_of<InvalidCase>([&] {
+              compare(input, {"erk", "nystrom"});
+            }),
+            "solver.max_order is 3, but no method of the comparison");
+}
+
+TEST(AFailedMethod, HasNoErrorsButAReasonAndAMiscountSaysOverHowMany) {
+  Case input = elastic_case(0.25e-3);
+  input.solver.rtol = 1e-4;
+  const Comparison failed = compare(input, {"bdf"});
+  EXPECT_EQ(failed.runs[0].verdict, Verdict::unstable);
+  EXPECT_FALSE(failed.runs[0].has_errors());
+  expect_in(failed.runs[0].message, "grows without bound");
+  const Comparison miscounted = compare(elastic_case(8e-3), {"central-difference"});
+  EXPECT_EQ(miscounted.runs[0].verdict, Verdict::wrong_count);
+  expect_in(miscounted.runs[0].message, " instead of 26; the first ", " correspond within ");
+}
+
+TEST(DampedBeams, AreComparedWithTwoMethodsThatTakeDamping) {
+  const auto reference_of = [](const std::function<void(Case&)>& damp) {
+    Case input = elastic_case(0.3e-3, 101);
+    damp(input);
+    const Comparison comparison = compare(input, {"erk:verner"});
+    EXPECT_EQ(comparison.runs[0].verdict, Verdict::right) << comparison.runs[0].message;
+    EXPECT_LT(comparison.reference.error, 1e-9);
+    return comparison.reference.description;
+  };
+  expect_in(reference_of([](Case& c) { c.scene.beam.damping.ratio = 0.02; }), "and exponential");
+  expect_in(reference_of([](Case& c) { c.scene.beam.damping.mass = 100.0; }), "and exponential");
+  expect_in(reference_of([](Case& c) {
+              c.scene.beam.damping.stiffness = 1e-9;
+              c.model.section = SectionKind::exact;
+            }),
+            "erk at", "erk:fehlberg-78");
+}
+
+TEST(TheReferencesOwnRun, IsComparedWithItsOtherOneAndSaysSo) {
+  Case input = elastic_case(0.3e-3);
+  input.solver.rtol = 1e-11;
+  const Comparison comparison = compare(input, {"exponential", "nystrom"});
+  for (const ComparedRun& run : comparison.runs) EXPECT_GT(run.errors.maximum, 0.0);
+  EXPECT_EQ(comparison.runs[0].message, "every sub-impact corresponds");
+  EXPECT_EQ(comparison.runs[1].message, "the reference's own run, beside its other one");
+}
+
 TEST(AnInterruptedComparison, HasTheMethodsThatHadEnded) {
   std::string running;
   const auto note = [&](const std::string& name) { running = name; };

@@ -66,7 +66,8 @@ TEST(OwnVelocityVerlet, IsSweptAtFixedStepsOnlyAndDampingIsRefused) {
   options.methods = {"own"};
   options.most_repeats = 0;
   const WorkPrecision study = work_precision(input, options);
-  EXPECT_TRUE(std::ranges::all_of(study.points, [](const Trial& p) { return p.setting.fixed_step; }));
+  EXPECT_TRUE(
+      std::ranges::all_of(study.points, [](const Trial& p) { return p.setting.fixed_step; }));
   ASSERT_TRUE(study.orders.at(0).observed);
   EXPECT_NEAR(*study.orders[0].observed, 2.0, 0.1);
   EXPECT_EQ(study.orders[0].smooth, 2);

@@ -148,6 +148,46 @@ TEST(AWorkPrecisionStudy, FindsErrorsThatFallAsCostRisesAndMarksWhatBlowsUp) {
   }
 }
 
+Case linear(double end_time) {
+  Case input = paper_run(SectionKind::elastic, end_time, 101);
+  input.scene.contact = {ContactKind::linear, 2e7, {}, {}, {}};
+  input.scene.striker.nose_radius.reset();
+  return input;
+}
+
+TEST(OrdersAtFixedSteps, AreThoseOfTheTablesWhereForcesAreSmoothAndBoundedByHertz) {
+  const std::vector<std::string> names = {"central-difference", "erk:bogacki-shampine",
+                                          "erk:zonneveld", "erk:dormand-prince", "erk:verner"};
+  const WorkPrecision smooth = work_precision(linear(0.5e-3), quick(names));
+  ASSERT_EQ(smooth.orders.size(), names.size());
+  for (const MethodOrder& order : smooth.orders) {
+    EXPECT_EQ(order.bound, OrderBound::none) << order.method;
+    ASSERT_TRUE(order.observed) << order.method;
+    EXPECT_NEAR(*order.observed, order.smooth, 0.2) << order.method;
+  }
+  Case hertz = linear(0.5e-3);
+  hertz.scene.contact = {ContactKind::hertz, 1e9, {}, {}, {}};
+  const WorkPrecision bounded = work_precision(hertz, quick({"erk:dormand-prince", "nystrom"}));
+  for (const MethodOrder& order : bounded.orders) {
+    EXPECT_EQ(order.bound, OrderBound::contact);
+    EXPECT_DOUBLE_EQ(order.most.value(), 2.5);
+    EXPECT_NEAR(order.observed.value(), 2.5, 0.5) << order.method;
+  }
+}
+
+TEST(AWorkPrecisionStudy, RunsEveryMethodWithFixedStepsBothWays) {
+  const WorkPrecision study = work_precision(linear(0.2e-3), quick({"nystrom", "adams"}));
+  const auto n = [&](const char* method, bool fixed) {
+    return std::ranges::count_if(study.points, [&](const Trial& p) {
+      return p.setting.method == method && p.setting.fixed_step == fixed;
+    });
+  };
+  EXPECT_GE(n("nystrom", false), 3);
+  EXPECT_GE(n("nystrom", true), 3);
+  EXPECT_GE(n("adams", false), 3);
+  EXPECT_EQ(n("adams", true), 0);
+}
+
 TEST(AWorkPrecisionStudy, LeavesOutWhatWouldTakeTooLongAndSaysSo) {
   WorkPrecisionOptions options = quick({"nystrom"});
   options.point_seconds = 1e-9;

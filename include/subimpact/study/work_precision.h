@@ -33,17 +33,17 @@ enum class OrderBound {
 /// The order of event times at fixed steps, of one method.
 struct MethodOrder {
   std::string method;
-  int smooth = 0;                  ///< of the method where forces are smooth; 0: not known
-  std::optional<double> observed;  ///< with the shortest steps well above the reference's error
+  int smooth = 0;                  ///< of the method where forces are smooth
+  std::optional<double> observed;  ///< with the shortest steps that show one
   OrderBound bound = OrderBound::none;
-  std::optional<double> most;  ///< that the bound leaves, if it is below `smooth` and known
+  std::optional<double> most;  ///< as steps shrink, if the bound is below `smooth` and known
 };
 
 struct WorkPrecision {
   std::string label;  ///< of the chart: how this case differs from others in it
   Reference reference;
   std::vector<Trial> points;
-  std::vector<MethodOrder> orders;  ///< of the methods with fixed steps
+  std::vector<MethodOrder> orders;  ///< of methods that keep a fixed step, and so have one
   bool interrupted = false;
 };
 

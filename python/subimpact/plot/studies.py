@@ -97,7 +97,7 @@ def differences(matches: Table, axes: Any, reference_error: float = 0.0) -> None
 def sensitivity(table: Table, axes: Any) -> None:
     """Changes of starts and ends of sub-impacts per 1 % more of each key, with the errors of the derivatives; the first touch
     has none."""
-    keys = [name[2:] for name in table if name.startswith("d_")]
+    keys = [name[2:] for name in getattr(getattr(table, "dtype", None), "names", None) or table if name.startswith("d_")]
     times = np.isin(table["quantity"], ("start_s", "end_s")) & (table["value"] > 0)
     for k, key in enumerate(keys):
         marked = _marked(k)

@@ -44,7 +44,6 @@ std::vector<MethodDescriptor> make_descriptors() {
        .modes = Modes::where_cheaper,
        .events = EventHandling::interpolated,
        .audit_interval = 256,
-       .order_of_steps = 2,
        .make =
            [](StruckBeam& beam, const IntegratorOptions& options) {
              return std::make_unique<CentralDifference>(beam, *options.fixed_step,
@@ -81,7 +80,6 @@ std::vector<MethodDescriptor> make_descriptors() {
        .needs_located_events = true,
        .needs_adaptive_steps_to_yield = true,
        .damping = Damping::of_modes,
-       .order_of_steps = 6,
        .make = make_exponential},
       {.kind = Method::dirk,
        .name = "dirk",

@@ -58,7 +58,6 @@ struct MethodDescriptor {
     int usual;  ///< default of solver.max_order
   };
   std::optional<Order> order = {};  ///< of multistep methods
-  int order_of_steps = 0;           ///< of one-step methods without tables
 
   /// Coefficients that solver.table may name, the default first; none for a method without tables.
   std::function<std::vector<CoefficientTable>()> tables = {};

@@ -32,7 +32,7 @@ constexpr double loosest = 1e-1;
 constexpr double gain_of_tolerance = 1.0 / 3.0;  // a ninth, and room for errors that fall unevenly
 // Of interpolated events: a square or a cube of the step, which falls as slowly as rtol^(1/5).
 constexpr double gain_of_interpolation = 1.0;
-constexpr double shorter = 0.7;                  // step
+constexpr double shorter = 0.7;  // step
 
 // Output of a run beside: no rows, and extremes at the instants of the run itself.
 OutputOptions output_beside(const Case& input) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "case/counted.h"
 #include "case/problem.h"
@@ -30,11 +31,9 @@ Case accurate(const Case& input, const std::string& method, double rtol) {
 // Two methods of different kinds that can integrate the equations of a case.
 std::pair<std::string, std::string> methods_of_reference(const Case& input) {
   const auto is_possible = [&](Method method) { return possible_method(input, method) == method; };
+  if (is_possible(Method::nystrom)) return {"nystrom", "erk"};
   const bool in_modes = !may_yield(input) && is_possible(Method::exponential);
-  const bool by_positions = is_possible(Method::nystrom);
-  if (in_modes) return {"exponential", by_positions ? "nystrom" : "erk"};
-  if (by_positions) return {"nystrom", "erk"};
-  return {"erk", "erk:fehlberg-78"};
+  return {"erk", in_modes ? "exponential" : "erk:fehlberg-78"};
 }
 
 void require_completed(const Result& result, const std::string& method, double rtol) {
@@ -158,6 +157,8 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
   errors.n_times = times.size();
   if (!times.empty()) {
     errors.maximum = *std::max_element(times.begin(), times.end());
+    errors.rms = std::sqrt(std::inner_product(times.begin(), times.end(), times.begin(), 0.0) /
+                           static_cast<double>(times.size()));
     errors.first = times.front();
     errors.last = times.back();
   }

@@ -60,7 +60,8 @@ struct ContactScales {
 /// of the equations of motion evaluates one force.
 ///
 /// The history is changed only by the run, at accepted steps and events, never inside an
-/// evaluation. A force that depends on velocities does not fit this interface.
+/// evaluation. With `contact.damping` the force of any law that does not yield is F (1 + chi
+/// lambda'), by the methods that integrate it; other forces that depend on velocities do not fit.
 class ContactLaw {
  public:
   virtual ~ContactLaw() = default;

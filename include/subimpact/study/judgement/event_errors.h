@@ -32,9 +32,9 @@ struct Reference {
 void set_horizon(Reference& reference, std::size_t n, const std::string& reason);
 
 /// Two runs of a case up to its end, by methods of different kinds, in parallel on two cores:
-/// `exponential` and `nystrom` if the beam is elastic, else `nystrom` and `erk`; where damping
-/// rules these out, `exponential` and `erk`, or two tables of `erk`. The error stated for an event
-/// follows from the difference of the two (study/judgement.h). Throws InvalidCase if either fails.
+/// `nystrom` and `erk`; where damping rules these out, `erk` and `exponential`, or if sections
+/// yield two tables of `erk`. The error stated for an event follows from the difference of the two
+/// (study/judgement.h). Throws InvalidCase if either fails.
 Reference run_reference(const Case& input, double rtol, const Progress& progress = {},
                         Jobs jobs = 2);
 
@@ -56,6 +56,7 @@ struct EventErrors {
   std::size_t n_times = 0;          ///< times compared; without any there are no errors
   double median = 0.0;              ///< s
   double maximum = 0.0;             ///< s
+  double rms = 0.0;                 ///< s
   double first = 0.0;               ///< s, of the first end
   double last = 0.0;                ///< s, of the last time compared
   double starts = 0.0;              ///< s, largest of the starts
@@ -112,14 +113,15 @@ struct Trial {
   double seconds = 0.0;  ///< wall time of one run, set-up included
   int repeats = 0;
   double energy_error = 0.0;  ///< largest relative one of the run
-  /// At a fixed step: ln(e'/e)/ln(h'/h) with the largest error e' of the longer step h' before, if
-  /// both runs are right and their errors well above that of the reference.
+  /// At a fixed step: ln(e'/e)/ln(h'/h) with the errors (root mean square) of this step h and of
+  /// the longer one before, if both runs are right and well above the error of the reference.
   std::optional<double> order = {};
 
   /// Whether the run completed, and any time could be compared.
   bool has_errors() const {
     return (verdict == Verdict::right || verdict == Verdict::wrong_count) && errors.n_times > 0;
   }
+  bool has_run() const { return verdict != Verdict::not_run && verdict != Verdict::refused; }
   bool reaches(double error) const { return verdict == Verdict::right && errors.maximum <= error; }
 };
 
