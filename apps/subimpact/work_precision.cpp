@@ -43,12 +43,13 @@ int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCas
   OutputDirectory directory(command.directory, "work-precision", case_id(cases.front().input));
   std::vector<WorkPrecision> studies;
   for (const auto& [label, input] : cases) {
-    studies.push_back({label, {}, {}, {}});
+    studies.emplace_back();
     WorkPrecisionOptions options;
     options.methods = command.methods;
     options.point_seconds = command.point_seconds;
-    options.finished = [&](const std::vector<Trial>& points) {
-      studies.back().points = points;
+    options.finished = [&](const WorkPrecision& so_far) {
+      studies.back() = so_far;
+      studies.back().label = label;
       write_file(directory.staging() / "work_precision.csv", work_precision_csv(studies));
       directory.commit();
     };

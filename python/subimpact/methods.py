@@ -28,14 +28,12 @@ def compare(case: Case, methods: Sequence[str]) -> Comparison:
 
 
 def work_precision(case: Case, methods: Sequence[str] = (), *, point_seconds: float = 10.0) -> Table:
-    """Cost and error of every method (or of these) at tolerances and at fixed steps, with observed orders: a row per run, which
-    `plot.work_precision` draws. Runs are timed one at a time; a setting that would take longer than `point_seconds` is not run.
-    Raises CaseError; after Ctrl-C, KeyboardInterrupt."""
+    """Cost and error of every method (or of these) at tolerances and fixed steps, a row per run, for `plot.work_precision`. Runs
+    are timed one at a time; one that would take longer than `point_seconds` is left out. Raises as compare()."""
     return table_of(_core.work_precision(as_case(case)._load(), list(methods), point_seconds).splitlines(), "work_precision")
 
 
 def stability(case: Case, methods: Sequence[str] = (), *, run_seconds: float = 20.0, jobs: int = 1) -> Table:
-    """How runs of every method (or of these) come out at steps and tolerances: a row per run, which `plot.outcomes` draws.
-    Raises CaseError; after Ctrl-C, KeyboardInterrupt."""
+    """How runs of every method (or of these) come out, a row per run, for `plot.outcomes`. Raises as compare()."""
     check_jobs(jobs)
     return table_of(_core.stability(as_case(case)._load(), list(methods), run_seconds, jobs).splitlines(), "outcomes")

@@ -161,18 +161,13 @@ std::string setting_text(const Trial& point) {
 
 // Why an order is bounded; nothing of OrderBound::none.
 std::string bound_text(const MethodOrder& order) {
-  switch (order.bound) {
-    case OrderBound::contact:
-      return fmt::format("the force rises as lambda^{:.4g} from each touch", *order.most - 1.0);
-    case OrderBound::interpolation:
-      return "events are interpolated within steps";
-    case OrderBound::library:
-      return "events lie on the library's dense output";
-    case OrderBound::sections:
-      return "sections begin and cease to flow within steps";
-    default:
-      return {};
+  if (order.bound == OrderBound::contact) {
+    return fmt::format("the force rises as lambda^{:.4g} from each touch", *order.most - 1.0);
   }
+  constexpr const char* words[] = {"", "", "events are interpolated within steps",
+                                   "events lie on the library's dense output",
+                                   "sections begin and cease to flow within steps"};
+  return words[static_cast<std::size_t>(order.bound)];
 }
 
 std::string order_text(const WorkPrecision& study) {

@@ -66,16 +66,13 @@ void warn_of_short_contacts(const Recorder& recorder, const ResolvedSettings& us
 }
 
 // A tolerance that numbers of 16 digits cannot meet costs steps and gains nothing.
-void warn_of_rounding(const SolverOptions& solver, const StruckBeam& beam, const State& y,
-                      const ResolvedSettings& used, Result& result) {
-  const double rounding = beam.displacement_rounding(y);
-  if (used.step || used.position_tolerance >= rounding) return;
+void warn_of_rounding(double rtol, const StruckBeam& beam, const State& y, Result& result) {
+  const double rounding = beam.displacement_rounding(y) / beam.scales().position;
+  if (rtol >= rounding) return;
   result.warnings.push_back(fmt::format(
-      "solver.rtol = {:.1e} asks for displacements within {:.1e} m, and the numbers that hold them "
-      "at the end of the run are good to {:.1e} m: events are known to {:.1e} us at best, however "
-      "small it is, and a smaller one takes more steps; use {:.0e}",
-      solver.rtol, used.position_tolerance, rounding, us * rounding / beam.scales().velocity,
-      solver.rtol * rounding / used.position_tolerance));
+      "solver.rtol = {:.1e} is below {:.1e}, the rounding of displacements at the end of the run: "
+      "it takes more steps, and events are known to {:.1e} us at best, however small it is",
+      rtol, rounding, us * rounding * beam.scales().position / beam.scales().velocity));
 }
 
 void count_work(const Integrator& integrator, const StruckBeam& beam, const EventLoop& loop,
@@ -288,7 +285,7 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
     result.rests_since = contacts.back().start;
   }
   warn_of_short_contacts(recorder, used, result);
-  warn_of_rounding(parts.given.solver, beam, loop.state(), used, result);
+  if (!used.step) warn_of_rounding(parts.given.solver.rtol, beam, loop.state(), result);
   join_sub_impacts(result.sub_impacts, output.opening);
   assign_zones(result.sub_impacts, output.zone_gap * used.first_period,
                output.subzone_gap * used.first_period);

@@ -1,10 +1,9 @@
 #include "subimpact/study/compare.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "case/problem.h"
+#include "case/refuse.h"
 #include "study/method_choice.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/study/judgement/judgement.h"
@@ -13,18 +12,6 @@ namespace subimpact {
 namespace {
 
 constexpr double reference_tolerance = 1e-11;
-
-// A setting that no method of the list has.
-void refuse_idle(const Case& input, const std::vector<ComparedRun>& runs) {
-  const std::optional<int>& order = input.solver.max_order;
-  const bool is_used = std::ranges::any_of(
-      runs, [](const ComparedRun& run) { return run.input.solver.max_order.has_value(); });
-  if (!order || is_used || runs.empty()) return;
-  throw InvalidCase("solver.max_order",
-                    fmt::format("is {}, but no method of the comparison has an order to choose; "
-                                "leave it out, or compare adams or bdf",
-                                *order));
-}
 
 }  // namespace
 
@@ -39,7 +26,16 @@ Comparison compare(const Case& input, const std::vector<std::string>& methods,
     const ResolvedSettings used = resolve(run.input).settings();
     run.setting = {name, used.step.has_value(), used.step.value_or(run.input.solver.rtol)};
   }
-  refuse_idle(input, runs);
+  const auto has_order = [](const ComparedRun& run) {
+    return run.input.solver.max_order.has_value();
+  };
+  if (input.solver.max_order && std::ranges::none_of(runs, has_order)) {
+    refuse(
+        "solver.max_order",
+        "is {}, but no method of the comparison has an order to choose; leave it out, or compare "
+        "adams or bdf",
+        *input.solver.max_order);
+  }
   Comparison comparison;
   const Progress watched = [&](double time) {
     if (progress && !progress(time)) comparison.interrupted = true;

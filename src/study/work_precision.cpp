@@ -83,7 +83,7 @@ void run_sweep(const Case& compared, std::span<const Setting> sweep,
     if (before) point.order = order_between(*before, point, least);
     before = point;
     study.points.push_back(point);
-    if (options.finished) options.finished(study.points);
+    if (options.finished) options.finished(study);
     if (point.verdict == Verdict::not_run) return;
     const bool as_good_as_reference =
         point.verdict == Verdict::right && point.errors.maximum < study.reference.error;

@@ -52,11 +52,13 @@ std::string answer(const std::function<void(Case&)>& break_it) {
 
 int n_broken = 0;
 
-void expect_named(const std::string& said, const std::string& words, const std::string& what) {
+void expect_named(const std::string& said, const std::string& words, const std::string& what,
+                  bool has_number = true) {
   ++n_broken;
   EXPECT_NE(said, "completed") << what;
   EXPECT_NE(said.find(words), std::string::npos) << what << ": " << said;
   EXPECT_EQ(said.find("rtol"), std::string::npos) << what << ": " << said;
+  if (!has_number) return;
   EXPECT_NE(said.find_first_of("0123456789"), std::string::npos) << what << ": " << said;
 }
 
@@ -190,7 +192,7 @@ void expect_law(const std::string& words, const std::function<void(FaultyLaw&)>&
 void break_laws() {
   constexpr double k = 2e6;
   for (const double factor : {-1.0, 0.0, nan, infinite}) {
-    expect_law("its force at an indentation",
+    expect_law(factor < 0.0 ? "contact pushes" : "its force at an indentation",
                [&](FaultyLaw& law) { law.f = [=](auto, double x) { return factor * k * x; }; });
   }
   for (const double at : {1e-4, 3e-4, 1e-3}) {
@@ -199,7 +201,7 @@ void break_laws() {
         law.f = [=](auto, double x) { return k * x + (x > at ? jump * k * 2e-3 : 0.0); };
       });
     }
-    expect_law("contact pushes", [&](FaultyLaw& law) {
+    expect_law("pu", [&](FaultyLaw& law) {  // "contact pushes", or "would pull" where it is weak
       law.f = [=](auto, double x) { return k * x * (x - at) * (x - 2.0 * at) / (at * at); };
     });
   }
@@ -219,9 +221,9 @@ void break_laws() {
              [](FaultyLaw& law) { law.steepness = [](double) { return 2.0 * k; }; });
 }
 
-// Explicit Euler steps, and states that are wrong as the fault says.
+// Euler's steps, wrong as the fault says.
 struct FaultyIntegrator final : Integrator {
-  enum class Fault { euler, still, not_a_number, gives_up };
+  enum class Fault { backwards, not_a_number, gives_up };
   FaultyIntegrator(SecondOrderOde& given, double step, Fault what)
       : ode(given), h(step), fault(what), a(given.n_positions()) {}
   void restart(double t, const State& y) override { stand_at(t, y); }
@@ -237,9 +239,9 @@ struct FaultyIntegrator final : Integrator {
     const std::size_t n = a.size();
     ode.acceleration({y0_.data(), n}, a);
     y = y0_;
-    if (fault == Fault::still) by = 0.0;
+    const double sign = fault == Fault::backwards ? -1.0 : 1.0;
     for (std::size_t i = 0; i < n; ++i) y[i] += by * y0_[n + i];
-    for (std::size_t i = 0; i < n; ++i) y[n + i] += by * a[i];
+    for (std::size_t i = 0; i < n; ++i) y[n + i] += sign * by * a[i];
     if (fault == Fault::not_a_number) y[0] = nan;
   }
   SecondOrderOde& ode;
@@ -257,21 +259,20 @@ void break_integrators() {
     });
   };
   const auto none = [](SecondOrderOde&, const StepControl&) { return nullptr; };
-  expect_named(with({.make = none, .order = -1}, 1e-7), "no integrator is given", "none 0");
-  expect_named(with({.make = {}}, 1e-7), "no integrator is given", "no maker");
-  expect_named(with({.make = none}, 1e-7), "make() returned none", "returns none");
+  expect_named(with({.make = none, .order = -1}, 1e-7), "no integrator is given", "none", false);
+  expect_named(with({.make = {}}, 1e-7), "no integrator is given", "no maker", false);
+  expect_named(with({.make = none}, 1e-7), "make() returned none", "returns none", false);
   expect_named(with({.make = none}, {}), "solver.step is missing", "no step");
   using Fault = FaultyIntegrator::Fault;
-  for (const auto& [fault, words] : {std::pair(Fault::euler, "of your own"),
-                                     {Fault::still, ""},
-                                     {Fault::not_a_number, ""},
-                                     {Fault::gives_up, "own() failed with TOO_HARD"}}) {
+  for (const auto& [fault, words] :
+       {std::pair(Fault::backwards, "check the integrator of your own"),
+        {Fault::not_a_number, "no longer finite"},
+        {Fault::gives_up, "own() failed with TOO_HARD"}}) {
     const auto make = [fault](SecondOrderOde& ode, const StepControl& control) {
       return std::make_unique<FaultyIntegrator>(ode, *control.step, fault);
     };
-    if (fault == Fault::still) continue;  // time goes on, and nothing moves: no contact ever
     expect_named(with({.make = make}, 1e-7), words,
-                 "an integrator, fault " + std::to_string(int(fault)));
+                 "an integrator, fault " + std::to_string(int(fault)), fault == Fault::gives_up);
   }
 }
 

@@ -91,9 +91,11 @@ TEST(DampedBeams, AreComparedWithTwoMethodsThatTakeDamping) {
   const auto reference_of = [](const std::function<void(Case&)>& damp) {
     Case input = elastic_case(0.3e-3, 101);
     damp(input);
+    const bool may_yield = input.model.section == SectionKind::exact;
     const Comparison comparison = compare(input, {"erk:verner"});
     EXPECT_EQ(comparison.runs[0].verdict, Verdict::right) << comparison.runs[0].message;
-    EXPECT_LT(comparison.reference.error, 1e-9);
+    // Sections are not located within the steps of a damped beam.
+    EXPECT_LT(comparison.reference.error, may_yield ? 1e-7 : 1e-12);
     return comparison.reference.description;
   };
   expect_in(reference_of([](Case& c) { c.scene.beam.damping.ratio = 0.02; }), "and exponential");

@@ -158,25 +158,25 @@ Case linear(double end_time) {
 TEST(OrdersAtFixedSteps, AreThoseOfTheTablesWhereForcesAreSmoothAndBoundedByHertz) {
   const std::vector<std::string> names = {"central-difference", "erk:bogacki-shampine",
                                           "erk:zonneveld", "erk:dormand-prince", "erk:verner"};
-  const WorkPrecision smooth = work_precision(linear(0.5e-3), quick(names));
+  const WorkPrecision smooth = work_precision(linear(1.5e-3), quick(names));
   ASSERT_EQ(smooth.orders.size(), names.size());
   for (const MethodOrder& order : smooth.orders) {
-    EXPECT_EQ(order.bound, OrderBound::none) << order.method;
+    EXPECT_TRUE(order.bound == OrderBound::none) << order.method;
     ASSERT_TRUE(order.observed) << order.method;
     EXPECT_NEAR(*order.observed, order.smooth, 0.2) << order.method;
   }
-  Case hertz = linear(0.5e-3);
+  Case hertz = linear(1.5e-3);
   hertz.scene.contact = {ContactKind::hertz, 1e9, {}, {}, {}};
   const WorkPrecision bounded = work_precision(hertz, quick({"erk:dormand-prince", "nystrom"}));
   for (const MethodOrder& order : bounded.orders) {
-    EXPECT_EQ(order.bound, OrderBound::contact);
+    EXPECT_TRUE(order.bound == OrderBound::contact);
     EXPECT_DOUBLE_EQ(order.most.value(), 2.5);
     EXPECT_NEAR(order.observed.value(), 2.5, 0.5) << order.method;
   }
 }
 
 TEST(AWorkPrecisionStudy, RunsEveryMethodWithFixedStepsBothWays) {
-  const WorkPrecision study = work_precision(linear(0.2e-3), quick({"nystrom", "adams"}));
+  const WorkPrecision study = work_precision(linear(1e-3), quick({"nystrom", "adams"}));
   const auto n = [&](const char* method, bool fixed) {
     return std::ranges::count_if(study.points, [&](const Trial& p) {
       return p.setting.method == method && p.setting.fixed_step == fixed;
@@ -192,7 +192,7 @@ TEST(AWorkPrecisionStudy, LeavesOutWhatWouldTakeTooLongAndSaysSo) {
   WorkPrecisionOptions options = quick({"nystrom"});
   options.point_seconds = 1e-9;
   const WorkPrecision study = work_precision(paper_run(SectionKind::exact, 0.3e-3), options);
-  ASSERT_EQ(study.points.size(), 2u);  // the first is run to see how long it takes
+  ASSERT_EQ(study.points.size(), 4u);  // the first of each kind is run to see how long it takes
   EXPECT_EQ(study.points.back().verdict, Verdict::not_run);
   expect_in(study.points.back().message, "would take");
 }
@@ -200,7 +200,7 @@ TEST(AWorkPrecisionStudy, LeavesOutWhatWouldTakeTooLongAndSaysSo) {
 TEST(AnInterruptedStudy, KeepsThePointsItHas) {
   WorkPrecisionOptions options = quick({"central-difference"});
   std::size_t finished = 0;
-  options.finished = [&](const auto& points) { finished = points.size(); };
+  options.finished = [&](const WorkPrecision& study) { finished = study.points.size(); };
   options.progress = [&](double) { return finished < 3; };
   const WorkPrecision study = work_precision(paper_run(SectionKind::elastic, 0.6e-3), options);
   EXPECT_TRUE(study.interrupted);

@@ -55,8 +55,7 @@ struct WorkPrecisionOptions {
   double point_seconds = 10.0;       ///< a setting that would take longer is not run
   double timing_budget = 0.6;        ///< s, of the repeats of one setting
   int most_repeats = 7;
-  /// Called after each point with all that are there.
-  std::function<void(const std::vector<Trial>&)> finished;
+  std::function<void(const WorkPrecision&)> finished;  ///< called after each point
   /// Called before each run, with its description.
   std::function<void(const std::string& what)> announce;
   Progress progress;  ///< of a single run; false ends the study with the results so far

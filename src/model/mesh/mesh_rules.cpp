@@ -58,12 +58,11 @@ void check_translation(const BeamMesh& mesh) {
   if (t.empty()) return;
   require(t.size() == mesh.n_unknowns(), "its translation has {} entries for {} unknowns", t.size(),
           mesh.n_unknowns());
-  const auto moves = [&](const char* point, const SparseFunctional& functional) {
-    require(std::abs(functional(t) - 1.0) <= rounding,
-            "a translation by 1 m moves its {} by {:.6g} m", point, functional(t));
-  };
-  moves("struck point", mesh.struck_point());
-  if (!mesh.first_end().is_zero()) moves("first end", mesh.first_end());
+  const double struck = mesh.struck_point()(t);
+  const double first = mesh.first_end().is_zero() ? 1.0 : mesh.first_end()(t);
+  require(std::abs(struck - 1.0) <= rounding && std::abs(first - 1.0) <= rounding,
+          "a translation by 1 m moves its struck point by {:.6g} m and its first end by {:.6g} m",
+          struck, first);
   for (std::size_t i = 0; i < mesh.n_sections(); ++i) {
     const double size = abs_sum(mesh.section_stencil(i).coefficients), bent = mesh.curvature(i, t);
     require(std::abs(bent) <= rounding * size,

@@ -193,7 +193,7 @@ BendingEnergies SectionField::energies(std::span<const double> curvatures,
   BendingEnergies sum;
   for (std::size_t i = 0; i < curvatures.size(); ++i) {
     const double k = curvatures[i];
-    if (k >= low_[i] && k <= high_[i]) {
+    if (!law_ || (k >= low_[i] && k <= high_[i])) {  // k may be NaN
       const double moment = stiffness_ * k - offset_[i];
       sum.elastic += weights[i] * half_compliance * moment * moment;
       if (has_yielded(i)) sum.add(weights[i], at_rest(i));

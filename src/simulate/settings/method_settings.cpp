@@ -38,7 +38,7 @@ constexpr double work_per_dense_mode = 0.5;
 std::string methods_that(bool (*holds)(const MethodDescriptor&)) {
   std::vector<std::string> names;
   for (const MethodDescriptor& method : methods()) {
-    if (holds(method)) names.emplace_back(method.name);
+    if (holds(method) && method.kind != Method::own) names.emplace_back(method.name);
   }
   return fmt::format("{}", fmt::join(names, ", "));
 }

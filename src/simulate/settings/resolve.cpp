@@ -111,19 +111,19 @@ void check_own(const Problem& problem, const Options& options, const ResolvedSet
                const StruckBeam& beam) {
   if (!problem.integrator || !problem.integrator->make) {
     refuse("solver.method",
-           "is \"own\", but no integrator is given; give CaseParts::integrator one "
-           "(examples/own_integrator.cpp), or choose another method");
+           "is \"own\", but no integrator is given; choose another, or give CaseParts::integrator");
   }
   if (!problem.integrator->is_adaptive && !options.solver.step) {
-    refuse("solver.step",
-           "is missing, and the integrator given controls no error; give a step: that of central "
-           "differences is {:.4g} us at most",
-           us * used.critical_step);
+    refuse(
+        "solver.step",
+        "is missing, and the integrator given controls no error; give a step, up to some {:.4g} us",
+        us * used.critical_step);
   }
   if (!problem.integrator->takes_velocities && beam.depends_on_velocity()) {
-    refuse("solver.method",
-           "is \"own\", an integrator of q'' = a(q), but damping makes forces depend on "
-           "velocities; leave the damping out, or set OwnIntegrator::takes_velocities");
+    refuse(
+        "solver.method",
+        "is \"own\", of q'' = a(q), but forces of damping depend on velocities; leave it out, or "
+        "set OwnIntegrator::takes_velocities");
   }
 }
 
