@@ -19,7 +19,8 @@ constexpr double reference_share = 0.1;
 constexpr double growth_of_a_decade = 2.2;
 // Errors show an order where they are so many times that of the reference.
 constexpr double shown_order = 4.0;
-constexpr double whole = 0.01;  // distance of an exponent from a whole number
+constexpr double same_order = 0.5;  // of two pairs of steps in a row
+constexpr double whole = 0.01;      // distance of an exponent from a whole number
 
 // Runs the case once to warm up, whose result counts, then again until the options' number of
 // repeats or budget is reached; a first run that uses up the budget alone is the timed one. Nothing
@@ -92,8 +93,8 @@ void run_sweep(const Case& compared, std::span<const Setting> sweep,
   }
 }
 
-// Observed where three steps in a row are clear of those too long for an order, and of the error of
-// the reference.
+// Observed where two pairs of steps in a row agree: steps too long for an order show none, nor does
+// rounding.
 MethodOrder order_of_sweep(const Case& compared, const Setting& fixed, const WorkPrecision& study) {
   const Case input = with_setting(compared, fixed);
   const ResolvedSettings used = resolve(input).settings();
@@ -101,7 +102,9 @@ MethodOrder order_of_sweep(const Case& compared, const Setting& fixed, const Wor
   const Trial* before = nullptr;
   for (const Trial& point : study.points) {
     if (point.setting.method != fixed.method) continue;
-    if (before != nullptr && before->order && point.order) order.observed = point.order;
+    const bool agree = before != nullptr && before->order && point.order &&
+                       std::abs(*point.order - *before->order) <= same_order;
+    if (agree) order.observed = point.order;
     before = &point;
   }
   const double n = used.contact_exponent;
