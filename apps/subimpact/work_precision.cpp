@@ -106,7 +106,7 @@ Command work_precision_command() {
   return command_with(
       "work-precision", "Compare cost and error of every method, and recommend settings",
       run_work_precision, options_of,
-      "Each method is swept from coarse to fine, rtol in decades or fixed steps in halves, against "
+      "Each method is swept from coarse to fine, rtol in decades, fixed steps in halves, against "
       "a reference computed by two methods at rtol 1e-12. Runs end at the horizon, up to which the "
       "error of the reference is below 1e-4 us. Runs are timed one at a time: leave the machine "
       "otherwise idle. After Ctrl-C the finished points are kept.\n"

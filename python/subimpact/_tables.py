@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,11 +13,10 @@ import numpy as np
 from ._errors import ResultsError
 
 
-def table_of(lines: Iterable[str], name: str) -> dict[str, Any]:
-    """The columns of a CSV text with a heading: arrays of numbers, NaN in empty cells, or of texts.
-    Raises ResultsError."""
+def table_of(text: str, name: str) -> dict[str, Any]:
+    """The columns of a CSV text with a heading: arrays of numbers, NaN in empty cells, or of texts. Raises ResultsError."""
     try:
-        heading, *rows = csv.reader(lines, strict=True)
+        heading, *rows = csv.reader(text.splitlines(), strict=True)
     except (ValueError, csv.Error) as error:
         raise ResultsError(f"{name}: cannot be read ({error})") from None
     if any(len(row) != len(heading) for row in rows) or not rows:
@@ -27,9 +27,8 @@ def table_of(lines: Iterable[str], name: str) -> dict[str, Any]:
 def read_table(file: str | os.PathLike[str]) -> dict[str, Any]:
     """The same of a file. Raises ResultsError."""
     try:
-        with open(file, encoding="utf-8", newline="") as text:
-            return table_of(text, os.fspath(file))
-    except OSError as error:
+        return table_of(Path(file).read_text(encoding="utf-8"), os.fspath(file))
+    except (OSError, ValueError) as error:
         raise ResultsError(f"{os.fspath(file)}: cannot be read ({error})") from None
 
 

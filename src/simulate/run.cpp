@@ -138,22 +138,18 @@ void judge_end(Audit& audit, const EventLoop& loop, Outcome& outcome) {
   }
 }
 
-// What of a run is a caller's own.
-std::string own_parts(const RunParts& parts) {
-  std::vector<std::string_view> own;
-  if (parts.problem.check_mesh) own.emplace_back("mesh");
-  if (parts.problem.check_contact_law) own.emplace_back("contact law");
-  if (parts.given.solver.method == Method::own) own.emplace_back("integrator");
-  return fmt::format("{}", fmt::join(own, " and "));
-}
-
 // Adds a remedy to the message, if the integrator could not continue or a check failed.
 void add_remedy(Outcome& outcome, const RunParts& parts) {
   const std::optional<double>& step = parts.settings.step;
   const bool failed = outcome.kind == OutcomeKind::solver_failed;
-  if (const std::string own = own_parts(parts); !own.empty() && (failed || outcome.first_failure)) {
+  std::vector<std::string_view> own;  // parts that are the caller's
+  if (parts.problem.check_mesh) own.emplace_back("mesh");
+  if (parts.problem.check_contact_law) own.emplace_back("contact law");
+  if (parts.given.solver.method == Method::own) own.emplace_back("integrator");
+  if (!own.empty() && (failed || outcome.first_failure)) {
     outcome.message += fmt::format(
-        "; check the {} of your own first: samples before the run showed no broken rule", own);
+        "; check the {} of your own first: samples before the run showed no broken rule",
+        fmt::join(own, " and "));
   } else if (failed) {
     outcome.message += parts.given.solver.step
                            ? "; use a smaller solver.step or another solver.method"

@@ -19,8 +19,9 @@ constexpr double reference_share = 0.1;
 constexpr double growth_of_a_decade = 2.2;
 // Errors show an order where they are so many times that of the reference.
 constexpr double shown_order = 4.0;
-constexpr double same_order = 0.5;  // of two pairs of steps in a row
-constexpr double whole = 0.01;      // distance of an exponent from a whole number
+constexpr double same_order = 1.25;  // of two pairs of steps in a row
+constexpr double least_order = 1.5;  // below it is rounding
+constexpr double whole = 0.01;       // distance of an exponent from a whole number
 
 // Runs the case once to warm up, whose result counts, then again until the options' number of
 // repeats or budget is reached; a first run that uses up the budget alone is the timed one. Nothing
@@ -102,7 +103,7 @@ MethodOrder order_of_sweep(const Case& compared, const Setting& fixed, const Wor
   const Trial* before = nullptr;
   for (const Trial& point : study.points) {
     if (point.setting.method != fixed.method) continue;
-    const bool agree = before != nullptr && before->order && point.order &&
+    const bool agree = before != nullptr && before->order && point.order > least_order &&
                        std::abs(*point.order - *before->order) <= same_order;
     if (agree) order.observed = point.order;
     before = &point;

@@ -10,9 +10,10 @@ it makes them, in the style of `style()`. It raises `Absent` where the results l
 `python -m subimpact.plot DIR`, or `subimpact plot DIR`, draws all that a directory holds.
 """
 
+from .._tables import read_table
 from .beam import bending, envelope, shapes, strikes
 from .comparison import comparison
-from .directory import draw_directory, read_table, save
+from .directory import draw_directory, save
 from .run import energies, first_sub_impact, force, gauges, indentation, response, timeline
 from .studies import differences, outcomes, sensitivity, work_precision
 from .style import Absent, figure, style

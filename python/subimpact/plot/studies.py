@@ -44,8 +44,8 @@ def work_precision(points: Table, axes: Any, cost: str = "wall_s") -> None:
     floor = 1e6 * points["reference_error_s"]
     finished = ((verdict == "right") | (verdict == "wrong count")) & (error > 0)
     broken = ~finished & (verdict != "refused") & (verdict != "not run")
-    low, edge = (10.0 ** rounded(np.log10(bound)) for rounded, bound in (
-        (np.floor, min(error[finished].min(initial=1.0), floor.min())), (np.ceil, error[finished].max(initial=1e-6))))
+    low = 10.0 ** np.floor(np.log10(min(error[finished].min(initial=1.0), floor.min())))
+    edge = 10.0 ** np.ceil(np.log10(error[finished].max(initial=1e-6)))
     for panel, label in zip(panels, _unique(points["label"])):
         here = points["label"] == label
         panel.axvspan(edge, 50 * edge, color="#F0F0F0", linewidth=0)
@@ -62,7 +62,7 @@ def work_precision(points: Table, axes: Any, cost: str = "wall_s") -> None:
                                 (shown & ~right, {**marked, "marker": "x"}), (of_line & broken, {**marked, "marker": "x"})):
                 x = np.full(which.sum(), 3 * edge) if which[broken].any() else error[which]
                 panel.plot(x, scale * points[cost][which], linestyle="none", **look)
-            if (ordered := np.flatnonzero(of_line & np.isfinite(points["observed_order"]))).size:
+            if (ordered := np.flatnonzero(of_line & (points["observed_order"] > 1.5))).size:  # less is rounding
                 last = ordered[-1]
                 panel.annotate(f"{points['observed_order'][last]:.1f}", (error[last], scale * points[cost][last]), (3, 3),
                                textcoords="offset points", color=marked["color"], fontsize=7)

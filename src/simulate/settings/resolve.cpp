@@ -109,21 +109,20 @@ void check(const Problem& problem, const Options& options) {
 
 void check_own(const Problem& problem, const Options& options, const ResolvedSettings& used,
                const StruckBeam& beam) {
-  if (!problem.integrator || !problem.integrator->make) {
-    refuse("solver.method",
-           "is \"own\", but no integrator is given; choose another, or give CaseParts::integrator");
+  const OwnIntegrator* own = problem.integrator.get();
+  if (own == nullptr || !own->make) {
+    refuse("solver.method", "is \"own\", but no integrator is given; see CaseParts::integrator");
   }
-  if (!problem.integrator->is_adaptive && !options.solver.step) {
+  if (!own->is_adaptive && !options.solver.step) {
     refuse(
         "solver.step",
-        "is missing, and the integrator given controls no error; give a step, up to some {:.4g} us",
+        "is missing, and this integrator has no error control; central differences take {:.4g} us",
         us * used.critical_step);
   }
-  if (!problem.integrator->takes_velocities && beam.depends_on_velocity()) {
-    refuse(
-        "solver.method",
-        "is \"own\", of q'' = a(q), but forces of damping depend on velocities; leave it out, or "
-        "set OwnIntegrator::takes_velocities");
+  if (!own->takes_velocities && beam.depends_on_velocity()) {
+    refuse("solver.method",
+           "is \"own\", of q'' = a(q), but damping depends on velocities; leave it "
+           "out, or set OwnIntegrator::takes_velocities");
   }
 }
 

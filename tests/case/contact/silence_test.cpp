@@ -165,6 +165,7 @@ TEST(ForcesInHistory, AreNeverNegativeAndZeroWhereContactBeginsAndEnds) {
 
 TEST(Impulses, EqualTheIntegratedForceForEveryMethod) {
   for (const Choice& method : find_case_key("solver.method")->choices) {
+    if (method.name == "own") continue;  // none is given
     Case input = paper_case(SectionKind::exact, 0.35e-3, 201);
     assign(input, *find_case_key("solver.method"), method.name);
     SCOPED_TRACE(method.name);

@@ -232,8 +232,7 @@ Record run_scene(const SceneId& id, double limit) {
     }
   } catch (const InvalidCase& error) {
     record.outcome = "refused";
-    record.failures.push_back(
-        {"resolve() refuses what simulate() does", error.key + " " + error.what()});
+    record.failures.push_back({"resolve() refuses what simulate() does", error.what()});
   } catch (const std::exception& error) {
     record.outcome = "exception";
     record.failures.push_back({"no exception", error.what()});
