@@ -21,8 +21,8 @@ class Comparison(NamedTuple):
 
 
 def compare(case: Case, methods: Sequence[str]) -> Comparison:
-    """Runs a scene by several methods, each named as in `subimpact compare` ("erk", "erk:verner+library"), and compares them
-    with a reference by two methods at rtol 1e-11. Raises CaseError; after Ctrl-C, KeyboardInterrupt."""
+    """Runs a scene by several methods ("erk", "erk:verner+library") and compares them with a reference by two methods at rtol
+    1e-11. Raises CaseError; after Ctrl-C, KeyboardInterrupt."""
     runs, matches = _core.compare(as_case(case)._load(), list(methods))
     return Comparison(table_of(runs, "comparison"), table_of(matches, "matches"))
 

@@ -27,16 +27,8 @@ enum class ReversalHandling {
   step_end  ///< history advances at step ends only
 };
 
-enum class Method {
-  central_difference,
-  erk,
-  nystrom,
-  dirk,
-  adams,
-  bdf,
-  exponential,
-  own  ///< CaseParts::integrator, Problem::integrator
-};
+/// `own`: CaseParts::integrator, Problem::integrator.
+enum class Method { central_difference, erk, nystrom, dirk, adams, bdf, exponential, own };
 
 struct SolverOptions {
   Method method = Method::erk;

@@ -95,14 +95,12 @@ def differences(matches: Table, axes: Any, reference_error: float = 0.0) -> None
 
 @figure([[0]], height=4.4)
 def sensitivity(table: Table, axes: Any) -> None:
-    """Changes of starts and ends of sub-impacts per 1 % more of each key, with the errors of the derivatives; the first touch
-    has none."""
+    """Changes of starts and ends of sub-impacts per 1 % more of each key, with their errors; the first touch has none."""
     keys = [name[2:] for name in getattr(getattr(table, "dtype", None), "names", None) or table if name.startswith("d_")]
     times = np.isin(table["quantity"], ("start_s", "end_s")) & (table["value"] > 0)
     for k, key in enumerate(keys):
-        marked = _marked(k)
         axes.errorbar(1e3 * table["value"][times], 1e4 * table[f"d_{key}"][times], 1e4 * table[f"error_{key}"][times], label=key,
-                      linewidth=0.7, **marked)
+                      linewidth=0.7, **_marked(k))
     axes.axhline(0, color=GREY, linewidth=0.6)
     axes.set(xlabel="start or end of a sub-impact, ms", ylabel="change per 1 %, µs")
     axes.set_yscale("symlog", linthresh=1.0)

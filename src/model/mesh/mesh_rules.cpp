@@ -70,8 +70,7 @@ void check_translation(const BeamMesh& mesh) {
   }
 }
 
-// curvatures(), bending_forces() and section_stencil() are one B, shown on a shape without
-// symmetry; and no unknown alone swings faster than the highest frequency.
+// All functions have one B, and no unknown alone swings faster than the highest frequency.
 void check_operator(const BeamMesh& mesh, double stiffness) {
   const std::size_t n = mesh.n_unknowns(), n_sections = mesh.n_sections();
   std::vector<double> q(n), forces(n), by_rows(n), own(n), kappa(n_sections), moments(n_sections);
