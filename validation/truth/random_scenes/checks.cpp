@@ -176,6 +176,8 @@ void Checks::transitions() {
         from = Branch::elastic, to = Branch::separated;
         break;
       case EventKind::section_reverses:
+      case EventKind::support_touches:
+      case EventKind::support_lifts:
         continue;
     }
     expect(branch == from, "transitions follow one another", "{} at {}, transition {}",
