@@ -190,7 +190,9 @@ class Plan:
         settings = {key: value for keys, point in reversed(points) for key, value in zip(keys, point)}
         random = np.random.default_rng((int(self.seed), sample))
         for key, deviation in self._drawn.items():
-            draw = random.standard_normal if self.distribution == "normal" else partial(random.uniform, -math.sqrt(3), math.sqrt(3))
+            draw: Callable[[], float] = random.standard_normal
+            if self.distribution == "uniform":
+                draw = partial(random.uniform, -math.sqrt(3), math.sqrt(3))
             settings[key] = _drawn(draw, key, settings[key] if key in settings else self.case[key], deviation)
         return list(settings.items())
 
