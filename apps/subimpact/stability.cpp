@@ -12,10 +12,10 @@ struct StabilityCommand : StudyOptions {
 int run_stability(StabilityCommand& command) {
   const LoadedCase loaded = command.input.load();
   print_doubts(loaded);
-  note_swept(loaded);
   if (command.directory.empty()) command.directory = command.input.directory_with("-stability");
   return with_places(loaded, [&]() -> int {
     check_methods(loaded.value, command.methods);
+    note_swept(loaded);
     OutputDirectory directory(command.directory, "stability", case_id(loaded.value));
     StudySession session;
     session.status.show("reference");

@@ -74,12 +74,12 @@ int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCas
 int run_work_precision(WorkPrecisionCommand& command) {
   const LoadedCase loaded = command.input.load();
   print_doubts(loaded);
-  note_swept(loaded);
   if (command.directory.empty())
     command.directory = command.input.directory_with("-work-precision");
   return with_places(loaded, [&] {
     const std::vector<LabelledCase> cases = cases_of(loaded, command.sections);
     for (const LabelledCase& entry : cases) check_methods(entry.input, command.methods);
+    note_swept(loaded);
     return run_cases(command, cases);
   });
 }

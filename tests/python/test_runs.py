@@ -27,7 +27,9 @@ def text_of(value, name, digits):
     if isinstance(value, float):
         if math.isnan(value):
             return ""
-        return format(value, ".17g" if name == "time_s" else digits)
+        n = 17 if name == "time_s" else digits
+        text = format(value, f".{n}g")
+        return format(value, f".{n - 1}e") if abs(value) < 0.1 and len(text.lstrip("-")) > n + 2 else text
     return "" if value == -1 else str(value)
 
 
@@ -41,7 +43,7 @@ def compare(result, directory):
             heading, *lines = csv.reader(text)
         assert list(rows.dtype.names) == heading
         assert len(rows) == len(lines)
-        digits = ".9g" if table == "shapes" else ".17g"
+        digits = 9 if table == "shapes" else 17
         for row, line in zip(rows.tolist(), lines):
             assert [text_of(v, n, digits) for v, n in zip(row, heading)] == line
 

@@ -23,13 +23,18 @@ def _unique(names: Any) -> list[str]:
     return list(dict.fromkeys(names))
 
 
+def _labels(table: Table) -> Any:
+    """One a row; a single case has none, which a table without text holds as not a number."""
+    return np.array(["" if label != label else str(label) for label in table["label"]])
+
+
 def _marked(k: int) -> dict[str, str]:
     """Colour and mark of the k-th of many curves; no two of 56 are alike."""
     return {"color": COLOURS[k % len(COLOURS)], "marker": "os^vDP*"[k % 7]}
 
 
 def _one_per_label(table: Table) -> tuple[Any, dict[str, Any]]:
-    n = len(_unique(table["label"]))
+    n = len(_unique(_labels(table)))
     return [[*range(n)]], {"figsize": (2.6 + 3.2 * n, 5.2), "sharex": True, "sharey": True}
 
 
@@ -46,8 +51,9 @@ def work_precision(points: Table, axes: Any, cost: str = "wall_s") -> None:
     broken = ~finished & (verdict != "refused") & (verdict != "not run")
     low = 10.0 ** np.floor(np.log10(min(error[finished].min(initial=1.0), floor.min())))
     edge = 10.0 ** np.ceil(np.log10(error[finished].max(initial=1e-6)))
-    for panel, label in zip(panels, _unique(points["label"])):
-        here = points["label"] == label
+    labels = _labels(points)
+    for panel, label in zip(panels, _unique(labels)):
+        here = labels == label
         panel.axvspan(edge, 50 * edge, color="#F0F0F0", linewidth=0)
         panel.axvspan(low, floor[here][0], color="#E4E4E4", linewidth=0)
         for x, said in ((18 * edge, "failed"), (1.3 * low, "below the error of the reference")):

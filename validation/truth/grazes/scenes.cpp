@@ -39,7 +39,8 @@ class ModesMesh final : public BeamMesh {
       : BeamMesh(modes.size(), 0, false), modes_(modes) {
     for (std::size_t k = 0; k < modes.size(); ++k) {
       mass_.at(k, k) = modes[k].mass;
-      weights_.push_back(modes[k].stiffness);
+      weights_.push_back(1.0 / static_cast<double>(modes.size()));  // of the length of 1 m
+      bends_.push_back(std::sqrt(modes[k].stiffness / weights_.back()));
       positions_.push_back(static_cast<double>(k + 1) / static_cast<double>(modes.size() + 1));
       struck_point_.terms.push_back({k, modes[k].displacement});
       momentum_functional_.push_back(modes[k].mass);
@@ -48,12 +49,14 @@ class ModesMesh final : public BeamMesh {
     first_end_.terms = {{0, 0.0}};
   }
   void curvatures(std::span<const double> q, std::span<double> kappa) const override {
-    std::ranges::copy(q, kappa.begin());
+    for (std::size_t k = 0; k < modes_.size(); ++k) kappa[k] = bends_[k] * q[k];
   }
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override {
-    for (std::size_t k = 0; k < modes_.size(); ++k) forces[k] = -modes_[k].stiffness * moments[k];
+    for (std::size_t k = 0; k < modes_.size(); ++k) forces[k] = -weights_[k] * bends_[k] * moments[k];
   }
-  SectionStencil section_stencil(std::size_t section) const override { return {section, one_}; }
+  SectionStencil section_stencil(std::size_t section) const override {
+    return {section, std::span(bends_).subspan(section, 1)};
+  }
   double highest_frequency(double stiffness) const override {
     double highest = 0.0;
     for (const Mode& mode : modes_) highest = std::max(highest, mode.stiffness / mode.mass);
@@ -72,7 +75,7 @@ class ModesMesh final : public BeamMesh {
 
  private:
   std::vector<Mode> modes_;
-  std::vector<double> one_{1.0};
+  std::vector<double> bends_;  // curvature per unknown
 };
 
 }  // namespace
