@@ -29,7 +29,6 @@ ALLOWED = {
     "src/study/sweep.cpp: parse_method_name()": "the value of an option",
     "apps/subimpact/listings.cpp: print_new_case()": "the first line of a file",
     "apps/subimpact/command_line.cpp: unexpected_words()": "an option",
-    "apps/subimpact/command_line.cpp: joined()": "an option",
     "apps/subimpact/command_line.cpp: roff()": "the format of manual pages",
     "apps/subimpact/command_line.cpp: print_text()": "the format of manual pages",
     "apps/subimpact/run.cpp: error_bars_of()": "an option",

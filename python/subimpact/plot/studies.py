@@ -24,7 +24,7 @@ def _unique(names: Any) -> list[str]:
 
 
 def _labels(table: Table) -> Any:
-    """One a row; a single case has none, which a table without text holds as not a number."""
+    """One a row; not a number for a single case without one."""
     return np.array(["" if label != label else str(label) for label in table["label"]])
 
 

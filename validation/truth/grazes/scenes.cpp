@@ -52,7 +52,8 @@ class ModesMesh final : public BeamMesh {
     for (std::size_t k = 0; k < modes_.size(); ++k) kappa[k] = bends_[k] * q[k];
   }
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override {
-    for (std::size_t k = 0; k < modes_.size(); ++k) forces[k] = -weights_[k] * bends_[k] * moments[k];
+    for (std::size_t k = 0; k < modes_.size(); ++k)
+      forces[k] = -weights_[k] * bends_[k] * moments[k];
   }
   SectionStencil section_stencil(std::size_t section) const override {
     return {section, std::span(bends_).subspan(section, 1)};
@@ -118,11 +119,15 @@ std::vector<Scene> read_scenes(const std::string& file) {
 
 Problem problem_of(const Scene& scene) {
   Problem problem;
-  problem.beam = {
-      .length = 1.0, .width = 1.0, .thickness = 1.0, .density = 1.0, .youngs_modulus = 12.0};
+  const auto modes = std::make_shared<ModesMesh>(scene.modes);
+  problem.beam = {.length = 1.0,
+                  .width = 1.0,
+                  .thickness = 1.0,
+                  .density = modes->beam_mass(),
+                  .youngs_modulus = 12.0};
   problem.striker.mass = scene.striker_mass;
   problem.striker.velocity = scene.velocity;
-  problem.mesh = std::make_shared<ModesMesh>(scene.modes);
+  problem.mesh = modes;
   problem.contact_law = std::make_shared<Spring>(scene.stiffness);
   problem.may_yield = false;
   return problem;
