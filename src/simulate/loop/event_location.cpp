@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "numerics/bracketed_root.h"
 #include "simulate/loop/audit.h"
@@ -49,7 +48,7 @@ std::optional<Crossing> EventLocator::find_crossing_in(const IndentationStep& en
                                            : 0.0;
     auto found =
         find_crossing(beam_.contact(i), own, {dealt_with_, double_roots, rounding, i, dead_length});
-    if (found && !(earliest && earliest->guess <= found->guess)) earliest = std::move(found);
+    if (found && !(earliest && earliest->guess <= found->guess)) earliest = found;
   }
   return earliest;
 }

@@ -84,17 +84,23 @@ std::optional<std::vector<double>> StruckBeam::equilibrium() const {
   return equilibrium(most > 0.0 ? root_in(excess, 0.0, most) : 0.0);
 }
 
-// The energy of a beam that lies on supports is convex: sets that follow from each other end at the
-// one that holds.
+// From the supports that a straight beam touches, else from all: sets that follow from each other
+// end at the one that holds.
 std::optional<std::vector<double>> StruckBeam::equilibrium(double tension) const {
-  std::vector<bool> lies_on(supports_.size(), true);
-  for (int i = 0; i < most_sets; ++i) {
-    auto q = equilibrium(tension, lies_on);
-    if (!q) return std::nullopt;
-    std::vector<bool> next;
-    for (const LiftingSupport& support : supports_) next.push_back(support.indentation(*q) > 0.0);
-    if (next == lies_on) return q;
-    lies_on = std::move(next);
+  const std::vector<double> straight(n_, 0.0);
+  for (const bool from_all : {false, true}) {
+    std::vector<bool> lies_on;
+    for (const LiftingSupport& support : supports_) {
+      lies_on.push_back(from_all || support.indentation(straight) >= 0.0);
+    }
+    for (int i = 0; i < most_sets; ++i) {
+      auto q = equilibrium(tension, lies_on);
+      if (!q) break;
+      std::vector<bool> next;
+      for (const LiftingSupport& support : supports_) next.push_back(support.indentation(*q) > 0.0);
+      if (next == lies_on) return q;
+      lies_on = std::move(next);
+    }
   }
   return std::nullopt;
 }

@@ -324,6 +324,19 @@ TEST(ABeamOnSupports, ThatTipsUnderItsWeightIsRefused) {
   }
 }
 
+TEST(ABeamOnSupports, LiesOnThoseThatItTouchesWhateverGapsTheOthersHave) {
+  Case input = elastic_bar();
+  Spring before = support(0.811, 1e-4);
+  before.one_sided->side = SpringSide::before;
+  input.scene.beam.springs = {before, support(1.0), support(0.131), support(0.332, 1e-3)};
+  input.scene.beam.start = BeamStart::equilibrium;
+  input.scene.gravity = 9.81;
+  for (const MeshKind mesh : {MeshKind::rigid, MeshKind::hermite}) {
+    input.model.mesh = mesh;
+    EXPECT_NO_THROW(completed(input));
+  }
+}
+
 TEST(ABeamOnSupports, ThatCannotBeIsRefusedWithItsReason) {
   const KeyValue rests = Names{"rests", "rests"};
   const std::tuple<const char*, const char*, Settings> refused[] = {
