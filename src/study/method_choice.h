@@ -3,6 +3,7 @@
 #include <string>
 
 #include "subimpact/case/case.h"
+#include "subimpact/simulate/result.h"
 
 namespace subimpact {
 
