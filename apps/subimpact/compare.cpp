@@ -119,9 +119,9 @@ Command compare_command() {
       "compare", "Run one scene by several methods, beam theories or contact laws", run_comparison,
       options_of,
       "Every method runs at solver.step if it is given, else at solver.rtol or its default step. "
-      "The "
-      "reference is nystrom at rtol 1e-11, or erk for a damped strike; its error is stated from a "
-      "run by another method. Sub-impacts are matched one to one.\n"
+      "The reference is nystrom at rtol 1e-11, or erk for a damped strike; its error is stated "
+      "from "
+      "a run by another method. Sub-impacts are matched one to one.\n"
       "Examples:\n"
       "  subimpact compare case.toml --methods central-difference,erk,dirk,adams,bdf\n"
       "  subimpact compare case.toml --methods erk:dop853,erk:dormand-prince --out out/tables\n"

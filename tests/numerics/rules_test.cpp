@@ -1,4 +1,3 @@
-#include "numerics/estimates.h"
 #include "numerics/gauss.h"
 #include "testing.h"
 
@@ -36,22 +35,6 @@ TEST(GaussRule, IsACompileTimeConstantSymmetricAboutTheMiddle) {
   static_assert(gauss<5>.points[2] == 0.5);
   static_assert(gauss<5>.points[0] + gauss<5>.points[4] == 1.0);
   static_assert(gauss<4>.weights[1] == gauss<4>.weights[2]);
-}
-
-TEST(Richardson, FindsTheLimitOfAnExactPowerLaw) {
-  for (const double order : {1.0, 2.0, 3.5, 4.0}) {
-    for (const double ratio : {1.5, 2.0, 10.0}) {
-      const auto v = [&](double h) { return 3.0 - 0.7 * std::pow(h, order); };
-      SCOPED_TRACE(testing::Message() << "order " << order << ", ratio " << ratio);
-      const double h = 0.1;
-      EXPECT_NEAR(richardson_limit(v(h), v(h / ratio), ratio, order), 3.0, 4e-15);
-    }
-  }
-}
-
-TEST(Richardson, TakesTheTrapezoidalRuleToSimpsons) {
-  // integral of x^3 over [0, 1] by one and by two panels: the limit is Simpson's rule, exact here.
-  EXPECT_NEAR(richardson_limit(0.5, 0.5 * (0.5 * (0.0 + 1.0) + 0.125), 2.0, 2.0), 0.25, 1e-16);
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ def text_of(value, name, digits):
             return ""
         n = 17 if name == "time_s" else digits
         text = format(value, f".{n}g")
-        return format(value, f".{n - 1}e") if abs(value) < 0.1 and len(text.lstrip("-")) > n + 2 else text
+        size = text.lstrip("-")
+        return format(value, f".{len(size[2:].lstrip('0')) - 1}e") if size.startswith("0.0") and len(size) > n + 2 else text
     return "" if value == -1 else str(value)
 
 

@@ -52,22 +52,31 @@ class NumberWriter {
     const auto bits = std::bit_cast<std::uint64_t>(magnitude);
     Entry& entry = entries_[(bits * 0x9E3779B97F4A7C15u) >> (64 - n_bits)];  // Fibonacci hashing
     if (entry.bits != bits || entry.digits != digits) {
-      auto end = std::to_chars(entry.text.begin(), entry.text.end(), magnitude,
-                               std::chars_format::general, digits);
-      // Readers that are quick rather than exact, as pandas is, count leading zeros as digits.
-      if (magnitude < 0.1 && end.ptr - entry.text.begin() > digits + 2) {
-        end = std::to_chars(entry.text.begin(), entry.text.end(), magnitude,
-                            std::chars_format::scientific, digits - 1);
-      }
+      char* const first = entry.text.data();
+      char* last = std::to_chars(first, first + entry.text.size(), magnitude,
+                                 std::chars_format::general, digits)
+                       .ptr;
+      if (first[0] == '0' && last - first > digits + 2) last = without_leading_zeros(first, last);
       entry.bits = bits;
       entry.digits = digits;
-      entry.size = static_cast<std::size_t>(end.ptr - entry.text.begin());
+      entry.size = static_cast<std::size_t>(last - first);
     }
     if (std::signbit(value)) text.push_back('-');
     text.append(entry.text.data(), entry.size);
   }
 
  private:
+  // 0.00ddd becomes d.dde-03: readers that are quick rather than exact, as pandas is, count leading
+  // zeros as digits.
+  static char* without_leading_zeros(char* first, char* last) {
+    char* const digit = std::find_if(first + 2, last, [](char c) { return c != '0'; });
+    const auto exponent = static_cast<char>('0' + (digit - first - 1));
+    if (digit == first + 2) return last;
+    first[0] = *digit;
+    char* const end = std::copy(digit + 1, last, first + 2);
+    return std::ranges::copy(std::array{'e', '-', '0', exponent}, end).out;
+  }
+
   static constexpr int n_bits = 9;
   struct Entry {
     std::uint64_t bits = 0;

@@ -63,9 +63,8 @@ void EventLoop::start_from(const State& y) {
   beam_.commit(y);
   time_ = options_.first_touch;
   end_state_ = y;
-  state_ =
-      &end_state_;  // where the run stands if the integrator cannot even begin; y may be its own
-  integrator_.restart(time_, end_state_);
+  state_ = &end_state_;  // where the run stands if the integrator cannot even begin
+  integrator_.restart(time_, end_state_);  // y may be a state of its own
   state_ = &integrator_.state();
   read_indentation();
 }

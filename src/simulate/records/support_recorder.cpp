@@ -86,16 +86,16 @@ void SupportRecorder::finish(const StruckBeam& beam, double length, Result& resu
     if (!open_[i]) continue;
     all[open_[i]->contact].impulse = beam.supports()[i].impulse - open_[i]->impulse;
   }
-  const auto is_none = [&](const SupportContact& contact) {
-    return contact.peak_force < least_force * largest;
-  };
+  const auto none = std::stable_partition(all.begin(), all.end(), [&](const SupportContact& s) {
+    return s.peak_force >= least_force * largest;
+  });
   std::erase_if(result.transitions, [&](const Transition& event) {
-    return event.spring && std::ranges::any_of(all, [&](const SupportContact& contact) {
-             return contact.spring == *event.spring && is_none(contact) &&
+    return event.spring && std::any_of(none, all.end(), [&](const SupportContact& contact) {
+             return contact.spring == *event.spring &&
                     (contact.start == event.time || contact.end == event.time);
            });
   });
-  std::erase_if(all, is_none);
+  all.erase(none, all.end());
   if (beam.mesh().symmetric()) {
     for (std::size_t i = all.size(); i-- > 0;) {
       if (all[i].position == 0.5 * length) continue;

@@ -8,6 +8,8 @@ namespace {
 
 // A step that moves every mode in closed form takes as long as these evaluations.
 constexpr double evaluations_per_step_in_modes = 3.0;
+// K_s w of springs and beddings, a product with a matrix, takes as long as these.
+constexpr double evaluations_of_springs = 1.5;
 // A section that flows takes as long as these evaluations of the others.
 constexpr double evaluations_per_flow = 10.0;
 
@@ -19,6 +21,7 @@ double evaluation_cost(const Case& input) {
   if (input.solver.method == Method::exponential && !yields) return 1.0;
   const bool in_elements = input.model.mesh != MeshKind::cells;
   double cost = central ? 1.0 : 2.0;
+  if (input.scene.beam.is_sprung()) cost += evaluations_of_springs;
   if (!input.scene.beam.damping.is_none()) cost *= 2.0;
   const auto varies = [](const PointForce& force) { return force.table.size() > 1; };
   if (std::ranges::any_of(input.scene.beam.forces, varies)) cost *= 4.0;

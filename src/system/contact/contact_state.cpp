@@ -64,10 +64,13 @@ EventValue ContactState::event_function(const EventFunction& function, double in
       return {residual_indentation() - indentation, -rate};
     case EventKind::contact_yields:
       return {indentation - law_->yield_threshold(history_), rate};
-    default:
+    case EventKind::contact_unloads:
+    case EventKind::section_reverses:
+    case EventKind::support_touches:
+    case EventKind::support_lifts:
       break;
   }
-  assert(false && "an event of sections has no function of the indentation");
+  assert(false && "this event has no function of the indentation");
   return {};
 }
 
@@ -91,8 +94,10 @@ void ContactState::pass(const EventFunction& event, double indentation) {
     case EventKind::contact_ends:
       branch_ = ContactBranch::separated;
       break;
-    default:
-      assert(false && "sections pass their events in SectionField");
+    case EventKind::section_reverses:
+    case EventKind::support_touches:
+    case EventKind::support_lifts:
+      assert(false && "sections pass their events in SectionField, supports as contacts");
       break;
   }
 }

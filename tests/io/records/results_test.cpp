@@ -132,10 +132,12 @@ TEST(NumbersOfTables, AreTheSameWhateverWasWrittenBefore) {
     std::array<char, 32> expected;
     auto end =
         std::to_chars(expected.begin(), expected.end(), value, std::chars_format::general, digits);
-    const auto size = end.ptr - expected.begin() - (std::signbit(value) ? 1 : 0);
-    if (std::abs(value) < 0.1 && size > digits + 2) {  // no leading zeros before all digits
+    const std::string_view general(expected.data(), end.ptr);
+    const auto zeros = general.find_first_of("123456789") - general.find('0');
+    const auto size = static_cast<int>(general.size()) - (std::signbit(value) ? 1 : 0);
+    if (general.find("0.0") < 2 && size > digits + 2) {  // no leading zeros before all digits
       end = std::to_chars(expected.begin(), expected.end(), value, std::chars_format::scientific,
-                          digits - 1);
+                          size - static_cast<int>(zeros) - 1);
     }
     std::string text;
     numbers.append(text, value, digits);

@@ -13,6 +13,11 @@
 namespace subimpact::wishes {
 namespace {
 
+// v(0) from v(h) = v(0) + c h^order = coarse and v(h/ratio) = fine, by Richardson.
+double richardson_limit(double coarse, double fine, double ratio, double order) {
+  return fine + (fine - coarse) / (std::pow(ratio, order) - 1.0);
+}
+
 // Errors of the reference itself, over the tolerance, up to which it can judge.
 constexpr double reference_share = 0.3;
 constexpr int coarsest = 24;

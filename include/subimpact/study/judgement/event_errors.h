@@ -78,7 +78,7 @@ struct EventErrors {
 /// For a run of the reference's scene up to its horizon.
 EventErrors event_errors(const Result& run, const Reference& reference);
 
-/// Whether two runs of a scene have the same method and the same settings of it.
+/// Whether two runs of a scene have the same method and the same settings of that method.
 bool are_same_methods(const Result& one, const Result& other);
 
 /// Errors against any list of sub-impacts; velocities are left at 0.
