@@ -164,6 +164,7 @@ Problem problem_of(const Case& given) {
   problem.integrator = input.parts.integrator;
   problem.may_yield = may_yield(input);
   problem.start = input.parts.start;
+  problem.is_one_of_several = input.strikes > 1 || problem.start;
   problem.at_rest = input.at_rest;
   problem.section = input.parts.section;
   if (!problem.section && problem.may_yield) {

@@ -58,7 +58,7 @@ void check_start(const Problem& problem);
 /// displacements K^-1 f(0) in equilibrium. Throws InvalidCase where a section would yield.
 void set_start(const Problem& problem, StruckBeam& beam);
 
-/// Refuses (InvalidCase) another strike on a beam with loads, a stop or a motion of its own, and a
+/// Refuses (InvalidCase) several strikes on a beam with loads, a stop or a motion of its own, and a
 /// gap before a beam that moves.
 void check_next_strike(const Problem& problem);
 /// Puts the beam into the state that Problem::start describes. Throws InvalidCase.

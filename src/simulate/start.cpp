@@ -193,7 +193,7 @@ void set_start(const Problem& problem, StruckBeam& beam) {
 }
 
 void check_next_strike(const Problem& problem) {
-  if (!problem.start) return;
+  if (!problem.is_one_of_several) return;
   const Beam& beam = problem.beam;
   const std::pair<const char*, bool> others[] = {
       {"scene.gravity", problem.gravity != 0.0},
@@ -202,12 +202,12 @@ void check_next_strike(const Problem& problem) {
       {"beam.velocity", beam.velocity != 0.0},
       {"beam.angular_velocity", beam.angular_velocity != 0.0},
       {"striker.fixed", problem.striker.fixed},
-      {"beam.springs", beam.may_lift()}};
+      {beam.rests[0] || beam.rests[1] ? "beam.ends" : "beam.springs", beam.may_lift()}};
   for (const auto& [key, is_given] : others) {
     if (!is_given) continue;
     refuse(key,
            "is given, but only a beam without loads, stop, supports that lift and motion of its "
-           "own is struck again; leave it out");
+           "own is struck again; leave it out, or set repeat.strikes = 1");
   }
   if (problem.striker.gap > 0.0 && !problem.at_rest) {
     refuse("striker.gap",

@@ -182,6 +182,9 @@ TEST(RepeatedStrikes, OnAMovingBeamMeetItWhereItIs) {
 
 TEST(RepeatedStrikes, RefuseWhatTheBeamCannotTake) {
   Case input = paper_strike(4e-4);
+  Case twice = input;
+  twice.strikes = 2;  // before the first one
+  expect_refused(changed(twice, {{"scene.gravity", 9.81}}), "scene.gravity");
   input.parts.start = simulate(input).end_state;
   const Case coarser = changed(input, {{"model.segments", 201}});
   EXPECT_EQ(refusal_of([&] { simulate(coarser); }).key, "model.mesh");

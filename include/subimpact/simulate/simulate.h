@@ -40,6 +40,7 @@ struct Problem {
   /// Result::end_state of an earlier strike on the same beam, mesh and laws, which this one finds.
   /// Null: the beam is straight, at rest and has never yielded.
   std::shared_ptr<const EndState> start;
+  bool is_one_of_several = false;  ///< whether another strike comes before or after this one
   /// Whether the beam of `start` has come to rest in its residual shape, or moves as it was left.
   /// The striker's nose lies on the dent; its velocity must exceed that of the struck point.
   bool at_rest = true;

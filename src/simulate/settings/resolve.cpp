@@ -111,7 +111,9 @@ void check_own(const Problem& problem, const Options& options, const ResolvedSet
                const StruckBeam& beam) {
   const OwnIntegrator* own = problem.integrator.get();
   if (own == nullptr || !own->make) {
-    refuse("solver.method", "is \"own\", but no integrator is given; see CaseParts::integrator");
+    refuse("solver.method",
+           "is \"own\", but no integrator is given: a program that uses the library gives one as "
+           "CaseParts::integrator; use another method");
   }
   if (!own->is_adaptive && !options.solver.step) {
     refuse(
