@@ -1,7 +1,6 @@
 // The contact law against what it stands for: a bed of columns, each with its own plastic memory.
 
 #include "built_in_law.h"
-#include "order_table.h"
 #include "paper_scene.h"
 #include "random_walk.h"
 
@@ -36,16 +35,6 @@ class ColumnBed {
     return 2.0 * width_ * spacing_ * sum;
   }
 
-  /// The midpoint rule's error on a stress that is a parabola with kinks: each kink, where the
-  /// slope changes by at most that of the parabola's rim, costs at most 1/8 of it times the spacing
-  /// squared. Three kinks (rim of the contact, of the flow now, of the flow before), and the
-  /// parabola's own 1/24.
-  double error_bound() const {
-    const double rim = spacing_ * static_cast<double>(flowed_.size());
-    const double steepest = modulus_ * rim / radius_;
-    return 2.0 * width_ * steepest * spacing_ * spacing_ * (3.0 / 8.0 + 1.0 / 24.0);
-  }
-
  private:
   double radius_, modulus_, yield_stress_, width_, spacing_;
   std::vector<double> flowed_;
@@ -60,9 +49,7 @@ double largest_difference(std::size_t n_columns, const std::vector<double>& walk
   for (const double indentation : walk) {
     const double force = law.contact_force(history, indentation);
     history = law.commit(history, indentation);
-    const double difference = std::abs(bed.press(indentation) - force);
-    EXPECT_LE(difference, bed.error_bound());
-    largest = std::max(largest, difference);
+    largest = std::max(largest, std::abs(bed.press(indentation) - force));
   }
   return largest;
 }
@@ -108,19 +95,6 @@ TEST(ContactLaw, UnderARoundNoseIsTheSumOverRingsOfColumns) {
   check(2.0 * M_PI * std::sqrt(R / (1.0 / R + 1.0 / 0.015)));
   scene.striker.nose = NoseShape::cylinder;
   check(2.0 * M_PI * std::sqrt(R * 0.015));
-}
-
-TEST(ContactLaw, IsTheLimitOfManyColumnsApproachedAtSecondOrder) {
-  const double unit = law_of(paper_scene()).yield_indentation();
-  const double deepest = 12.0 * unit;
-  const std::vector<double> walk = nested_walk(1, 3000, -unit, deepest, 5.0 * unit);
-  OrderTable table("columns under the nose against the contact law, N");
-  for (const std::size_t n : {250u, 500u, 1000u, 2000u, 4000u}) {
-    table.add(static_cast<double>(n), largest_difference(n, walk, deepest));
-  }
-  // Where the kinks fall between the columns makes the single ratios swing.
-  table.expect_every_order_within(1.7, 2.3);
-  table.expect_overall_order_within(1.9, 2.1);
 }
 
 }  // namespace

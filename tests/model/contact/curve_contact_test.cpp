@@ -58,15 +58,6 @@ TEST(ACurveContact, OfManyPointsOfHertzIsHertz) {
   EXPECT_EQ(contact.largest_indentation(), 1e-4);
 }
 
-TEST(ACurveContact, KeepsTheRulesOfContactLawsWithAndWithoutUnloading) {
-  for (const double exponent : {1.0, 1.5, 2.0}) {
-    const MeasuredCurve loading = sampled(exponent, 12);
-    EXPECT_EQ(broken_rule(CurveContact(loading, {}), 1e-4), std::nullopt) << exponent;
-    const CurveContact with_unloading(loading, straight_back(loading));
-    EXPECT_EQ(broken_rule(with_unloading, 1e-4), std::nullopt) << exponent;
-  }
-}
-
 TEST(ACurveContact, ReturnsTheMeasuredShareOfItsWork) {
   const MeasuredCurve loading = sampled(1.0, 10);
   const CurveContact contact(loading, straight_back(loading));

@@ -1,5 +1,5 @@
-// Natural frequencies of cells (out of dense eigenvalues) and of Hermite elements, against the
-// bounds of the meshes and the continuum.
+// Natural frequencies of the continuum, and those of cells (out of dense eigenvalues) and of
+// Hermite elements, against the continuum.
 
 #include "mesh/mesh_contract.h"
 #include "model/mesh/cell_mesh.h"
@@ -8,6 +8,59 @@
 
 namespace subimpact {
 namespace {
+
+// --- of the continuum ---
+
+constexpr double last_digit = 1e-10;
+
+void expect_wave_numbers(double slenderness, const std::vector<double>& expected,
+                         const Ends& ends = free_ends) {
+  const std::vector<double> found = flexural_wave_numbers(slenderness, ends, expected.size());
+  SCOPED_TRACE(slenderness);
+  expect_near(found, expected, last_digit);
+}
+
+TEST(FreeFreeBeam, HasTheWaveNumbersOfEulerAndBernoulli) {
+  expect_wave_numbers(0.0,
+                      {4.7300407449, 7.8532046241, 10.9956078380, 14.1371654913, 17.2787596574});
+}
+
+TEST(FreeFreeBeam, HasTheWaveNumbersOfRayleigh) {
+  const Beam beam = paper_beam();  // whose slenderness shows in the last digits here
+  EXPECT_NEAR(beam.radius_of_gyration() / beam.length, 0.003044240, 0.5e-9);
+  EXPECT_NEAR(beam.mass(), 0.2260549, 0.5e-7);
+  expect_wave_numbers(beam.radius_of_gyration() / beam.length,
+                      {4.7294986445, 7.8512239742, 10.9908523965, 14.1278561451, 17.2626944721});
+  expect_wave_numbers(0.05,
+                      {4.5937950806, 7.3924333414, 9.9896525818, 12.3640608084, 14.5370373882});
+}
+
+TEST(SupportedBeam, HasTheWaveNumbersOfEulerAndBernoulli) {
+  expect_wave_numbers(0.0, {4.7300407449, 7.8532046241, 10.9956078380}, {clamped, clamped});
+  expect_wave_numbers(0.0, {3.9266023120, 7.0685827456, 10.2101761228}, {clamped, pinned});
+  expect_wave_numbers(0.0, {3.9266023120, 7.0685827456, 10.2101761228}, {pinned, free_end});
+  expect_wave_numbers(0.0, {1.8751040687, 4.6940911330, 7.8547574382}, {clamped, free_end});
+}
+
+TEST(SupportedBeam, DoesNotDependOnTheSideItIsLookedAtFrom) {
+  for (const Ends& ends :
+       {Ends{clamped, pinned}, Ends{clamped, free_end}, Ends{pinned, free_end}}) {
+    expect_near(flexural_wave_numbers(0.03, ends, 8),
+                flexural_wave_numbers(0.03, {ends[1], ends[0]}, 8), last_digit);
+  }
+}
+
+TEST(PinnedPinnedBeam, OfRayleighHasSinesForModes) {
+  for (const double r : {0.0, 0.003, 0.05}) {
+    const std::vector<double> found = flexural_wave_numbers(r, {pinned, pinned}, 6);
+    for (std::size_t k = 1; k <= found.size(); ++k) {
+      const double wave = static_cast<double>(k) * std::numbers::pi;
+      EXPECT_NEAR(found[k - 1], wave / std::pow(1.0 + r * r * wave * wave, 0.25), last_digit);
+    }
+  }
+}
+
+// --- of meshes ---
 
 using Extent = BeamMesh::Extent;
 using Support = std::tuple<BeamTheory, Ends>;
@@ -76,38 +129,6 @@ TEST(CellMesh, RayleighFrequenciesAreOfSecondOrderButForTheRotaryInertiaOfTheOut
   for (const OrderTable& table : left_out) table.expect_every_order_within(0.9, 1.1);
 }
 
-TEST_P(CellsOnSupports, HighestFrequencyIsAnUpperBoundForAnyNumberOfCells) {
-  for (const std::size_t n : {5u, 6u, 7u, 8u, 9u, 20u, 51u, 151u}) {
-    if (n < 7 && !beam().is_free()) continue;  // too few
-    const CellMesh mesh(beam(), 0.5, n, Extent::whole);
-    const double highest = highest_of(mesh, stiffness());
-    EXPECT_GE(mesh.highest_frequency(stiffness()), highest * (1.0 - 1e-12)) << n << " cells";
-    if (n == 151 && beam().is_free()) {
-      EXPECT_LE(mesh.highest_frequency(stiffness()), highest * 1.001);
-    }
-  }
-}
-
-TEST_P(CellsOnSupports, HalfModelHasTheSymmetricModesOfTheWhole) {
-  Beam alike = beam();
-  alike.ends[1] = alike.ends[0];
-  const auto squares = [&](Extent extent) {
-    return squared_frequencies(CellMesh(alike, 0.5, 41, extent), stiffness());
-  };
-  const Eigen::VectorXd whole = squares(Extent::whole), half = squares(Extent::half);
-  const double highest = whole(whole.size() - 1);
-  // Of a free whole's modes 0 translates, 1 rotates; symmetric and antisymmetric ones take turns.
-  for (Eigen::Index k = 0; k < half.size(); ++k) {
-    EXPECT_NEAR(half(k), whole(2 * k), 1e-11 * highest) << k;
-  }
-  const auto n_rigid = [&](const Eigen::VectorXd& all) {
-    EXPECT_GT(all.minCoeff(), -1e-12 * highest);
-    return (all.array() < 1e-12 * highest).count();
-  };
-  EXPECT_EQ(n_rigid(whole), alike.is_free() ? 2 : 0);
-  EXPECT_EQ(n_rigid(half), alike.is_free() ? 1 : 0);
-}
-
 class ElementsOnSupports : public testing::TestWithParam<Support> {
  protected:
   Beam beam() const {
@@ -144,13 +165,6 @@ TEST_P(ElementsOnSupports, FrequenciesConvergeAtFourthOrder) {
 TEST_P(ElementsOnSupports, WithHingesKeepTheThirdOrder) {
   constexpr std::size_t sizes[] = {16, 32, 64};
   expect_order_of_frequencies(beam(), 4, sizes, frequencies(0.5, true), 2.7, 4.3);
-}
-
-TEST_P(ElementsOnSupports, HaveTheBeamsRigidModes) {
-  const HermiteMesh mesh(beam(), 0.4, 10, Extent::whole);
-  const Eigen::VectorXd squares = squared_frequencies(mesh, beam().bending_stiffness());
-  const double zero = 1e-12 * squares(squares.size() - 1);
-  EXPECT_EQ(static_cast<std::size_t>((squares.array() < zero).count()), n_rigid_modes(beam()));
 }
 
 }  // namespace

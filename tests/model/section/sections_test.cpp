@@ -1,7 +1,6 @@
 // Sections of every shape, with and without hardening: the law of fibres against return maps at the
 // points of a quadrature over the section, and closed forms.
 
-#include "model/mesh/hermite/hermite_mesh.h"
 #include "model/section/section_law.h"
 #include "numerics/gauss.h"
 #include "paper_scene.h"
@@ -193,22 +192,6 @@ TEST_P(EveryShape, HardensByTheShareOfItsElasticStiffness) {
   }
 }
 
-// A Rayleigh beam on pins: omega^2 = E I b^4/(rho A + rho I b^2), b = n pi/l.
-TEST_P(EveryShape, VibratesOnPinsAtTheClosedFormsFrequencies) {
-  Beam beam = beam_of(GetParam().section);
-  beam.ends = {pinned, pinned};
-  const QuadratureSection points(beam, 2000);
-  const double area = points.area(), second = points.second_moment();
-  const HermiteMesh mesh(beam, 0.5, 64, HermiteMesh::Extent::whole);
-  const NaturalModes modes = mesh.natural_modes(beam.bending_stiffness());
-  for (std::size_t n = 0; n < 3; ++n) {
-    const double b = static_cast<double>(n + 1) * M_PI / beam.length;
-    const double expected = std::sqrt(beam.youngs_modulus * second * std::pow(b, 4) /
-                                      (beam.density * (area + second * b * b)));
-    EXPECT_NEAR(modes.frequencies[n], expected, 1e-6 * expected);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Sections, EveryShape, testing::ValuesIn(shapes), NamedAsPrinted{});
 
 TEST(Sections, HaveTheShapeFactorsOfTextbooks) {
@@ -227,20 +210,6 @@ TEST(Sections, HaveTheShapeFactorsOfTextbooks) {
   const double plastic = 0.25 * (b * h * h - gap * inner * inner);
   const double elastic = (b * h * h * h - gap * inner * inner * inner) / (6.0 * h);
   EXPECT_NEAR(factor(shapes[4].section), plastic / elastic, 1e-13);
-}
-
-// The design's closed form of the circle's virgin curve.
-TEST(Sections, OfACircleHaveTheClosedFormOfTheVirginCurve) {
-  const Fibres fibres = Fibres::continuous(beam_of(shapes[1].section));
-  for (const double x : {1.0, 1.001, 1.5, 3.0, 10.0, 1000.0}) {
-    const double s = 1.0 / x;
-    const double m =
-        16.0 / M_PI *
-        ((std::asin(s) - s * (1.0 - 2.0 * s * s) * std::sqrt(1.0 - s * s)) / (8.0 * s) +
-         std::pow(1.0 - s * s, 1.5) / 3.0);
-    EXPECT_NEAR(fibres.moment(x), m, 1e-13) << x;
-  }
-  EXPECT_NEAR(fibres.moment(1.0), 1.0, 1e-15);
 }
 
 TEST(Sections, GivenAsARectangleOfAnotherFormAreTheShortForm) {
