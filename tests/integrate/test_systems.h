@@ -113,16 +113,6 @@ class SpringChain final : public KnownMotion {
   double frequency(std::size_t k) const {
     return 2.0 * rate_ * std::sin(0.5 * static_cast<double>(k) * std::numbers::pi / denominator());
   }
-  double energy(const State& y) const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i <= n_; ++i) {
-      const double left = i > 0 ? y[i - 1] : 0.0;
-      const double right = i < n_ ? y[i] : 0.0;
-      sum += 0.5 * rate_ * rate_ * (right - left) * (right - left);
-      if (i < n_) sum += 0.5 * y[n_ + i] * y[n_ + i];
-    }
-    return sum;
-  }
 
  private:
   double denominator() const { return static_cast<double>(n_ + 1); }

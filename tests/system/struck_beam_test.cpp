@@ -106,75 +106,6 @@ TEST(StruckBeam, EveryJouleStaysInTheAccountsAlongTheFlow) {
   }
 }
 
-TEST(StruckBeam, CommittingWithinAllWindowsChangesNothing) {
-  for (const Model& model : models()) {
-    StruckBeam beam = make_beam(model);
-    enter(beam, ContactBranch::elastic, 3.0 * lambda_s);
-    const State far = smooth_state(beam, 3, model.yields ? 3.0 : 0.5, 2.5 * lambda_s, 0.0);
-    beam.commit(far);
-    State near = far;
-    for (double& value : near) value *= 1.0 - 1e-3;  // a little back: nothing flows
-    const std::size_t n = beam.n_positions();
-    std::vector<double> a(n), b(n);
-    const State probe = smooth_state(beam, 9, 2.0, 2.2 * lambda_s, 1.0);
-    beam.acceleration({probe.data(), n}, a);
-    const std::size_t n_yielded = beam.sections().n_yielded();
-    EXPECT_FALSE(beam.commit(near)) << model.name;
-    EXPECT_EQ(beam.sections().n_yielded(), n_yielded);
-    beam.acceleration({probe.data(), n}, b);
-    EXPECT_EQ(a, b) << model.name;
-    EXPECT_EQ(n_yielded > 0, model.yields);
-  }
-}
-
-TEST(StruckBeam, AskingForAccelerationsChangesNoHistory) {
-  StruckBeam beam = make_beam(models()[1]);
-  enter(beam, ContactBranch::plastic, 2.0 * lambda_s);
-  const std::size_t n = beam.n_positions();
-  const State probe = smooth_state(beam, 1, 2.0, 3.0 * lambda_s, 1.0);
-  std::vector<double> a(n), b(n), ignored(n);
-  beam.acceleration({probe.data(), n}, a);
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    const State wild = smooth_state(beam, seed, 9.0, 9.0 * lambda_s, 1.0);
-    beam.acceleration({wild.data(), n}, ignored);
-    Accounts(beam).energies(wild);
-  }
-  beam.acceleration({probe.data(), n}, b);
-  EXPECT_EQ(a, b);
-}
-
-TEST(StruckBeam, CommitTellsWhetherASectionFlowed) {
-  StruckBeam beam = make_beam(models()[1]);
-  EXPECT_FALSE(beam.commit(smooth_state(beam, 2, 0.99, 0.0, 1.0)));
-  EXPECT_TRUE(beam.commit(smooth_state(beam, 2, 1.5, 0.0, 1.0)));
-  // The same again, to rounding.
-  EXPECT_FALSE(beam.commit(smooth_state(beam, 2, 1.5 * (1.0 - 1e-12), 0.0, 1.0)));
-  EXPECT_TRUE(beam.commit(smooth_state(beam, 2, 1.6, 0.0, 1.0)));
-}
-
-TEST(StruckBeam, HalfAndWholeMoveAlike) {
-  for (const bool yields : {false, true}) {
-    StruckBeam whole = make_beam({"", CellMesh::Extent::whole, 0.5, yields});
-    StruckBeam half = make_beam({"", CellMesh::Extent::half, 0.5, yields});
-    enter(whole, ContactBranch::plastic, lambda_s);
-    enter(half, ContactBranch::plastic, lambda_s);
-    const State y = smooth_state(whole, 4, 2.5, 3.0 * lambda_s, 2.0);
-    const State y_half = smooth_state(half, 4, 2.5, 3.0 * lambda_s, 2.0);
-    const std::size_t n = whole.n_positions();
-    const std::size_t n_half = half.n_positions();
-    std::vector<double> a(n), a_half(n_half);
-    whole.acceleration({y.data(), n}, a);
-    half.acceleration({y_half.data(), n_half}, a_half);
-    const double size = *std::max_element(a.begin(), a.end());
-    for (std::size_t i = 0; i + 1 < n_half; ++i) EXPECT_NEAR(a_half[i], a[i], 1e-10 * size) << i;
-    EXPECT_NEAR(a_half.back(), a.back(), 1e-12 * std::abs(a.back()));
-    EXPECT_NEAR(Accounts(half).energies(y_half).total(), Accounts(whole).energies(y).total(),
-                1e-12 * 25.0);
-    EXPECT_NEAR(Accounts(half).momentum(y_half), Accounts(whole).momentum(y), 1e-12);
-    EXPECT_NEAR(Accounts(half).back_stress(y_half), Accounts(whole).back_stress(y), 1e-3);
-  }
-}
-
 TEST(StruckBeam, SmoothContactGoesOnWhereSwitchingContactLetsGo) {
   StruckBeam beam = make_beam(models()[0]);
   enter(beam, ContactBranch::elastic, 3.0 * lambda_s);
@@ -186,20 +117,6 @@ TEST(StruckBeam, SmoothContactGoesOnWhereSwitchingContactLetsGo) {
   beam.contact().set_evaluation(Evaluation::switching);
   EXPECT_EQ(beam.contact_force(inside), force);
   EXPECT_EQ(beam.contact_force(apart), 0.0);
-}
-
-TEST(StruckBeam, MeasuresDisplacementsWhereTheyAreAsked) {
-  StruckBeam beam = make_beam(models()[4]);
-  const std::size_t n = beam.n_positions() - 1;
-  State y(2 * (n + 1), 0.0);
-  const double dx = 0.7112 / static_cast<double>(n);
-  for (std::size_t i = 0; i < n; ++i) y[i] = 0.01 + 0.1 * (static_cast<double>(i) + 0.5) * dx;
-  y[n] = 0.5;
-  const Accounts::Displacements at = Accounts(beam).displacements(y);
-  EXPECT_NEAR(at.struck, 0.01 + 0.1 * 0.317 * 0.7112, 1e-15);
-  EXPECT_NEAR(at.first_end, 0.01, 1e-15);
-  EXPECT_EQ(at.striker, 0.5);
-  EXPECT_NEAR(Accounts(beam).back_stress(y), 0.0, 1e-3);  // straight
 }
 
 }  // namespace

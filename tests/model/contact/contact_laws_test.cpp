@@ -156,6 +156,7 @@ TEST(ContactLaws, HasTheWorkOfItsForcesAsEnergies) {
         spent += work([&](double x) { return of.law->plastic_force(x); }, first, depth);
       }
       EXPECT_NEAR(of.law->work_up_to(depth), spent, of.rounding * spent) << depth;
+      EXPECT_NEAR(of.law->indentation_at(of.law->work_up_to(depth)), depth, 1e-8 * depth);
     }
     EXPECT_EQ(of.law->dissipated_energy({0.99 * first}), 0.0);
   }

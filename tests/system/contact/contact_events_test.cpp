@@ -31,22 +31,6 @@ TEST(EventFunctions, RatesAreThoseOfTheirValuesAlongTheFlow) {
   }
 }
 
-TEST(EventFunctions, AreNegativeBeforeTheirEventAndPositiveAfter) {
-  StruckBeam beam = make_beam(models()[0]);
-  enter(beam, ContactBranch::elastic, 3.0 * unit);
-  const auto value = [&](EventKind kind, double indentation, double rate) {
-    return beam.evaluate({kind}, smooth_state(beam, 1, 0.1, indentation, rate)).value;
-  };
-  EXPECT_LT(value(EventKind::contact_begins, 1.9 * unit, 1.0), 0.0);
-  EXPECT_GT(value(EventKind::contact_begins, 2.1 * unit, 1.0), 0.0);
-  EXPECT_LT(value(EventKind::contact_ends, 2.1 * unit, -1.0), 0.0);
-  EXPECT_GT(value(EventKind::contact_ends, 1.9 * unit, -1.0), 0.0);
-  EXPECT_LT(value(EventKind::contact_yields, 2.9 * unit, 1.0), 0.0);
-  EXPECT_GT(value(EventKind::contact_yields, 3.1 * unit, 1.0), 0.0);
-  EXPECT_LT(value(EventKind::contact_unloads, 3.0 * unit, 1.0), 0.0);
-  EXPECT_GT(value(EventKind::contact_unloads, 3.0 * unit, -1.0), 0.0);
-}
-
 // The indentation over a step is the cubic through these ends.
 class ContactCrossing : public testing::Test {
  protected:
@@ -125,19 +109,6 @@ TEST_F(ContactCrossing, TheEarlierOfTwoIsFound) {
   const std::vector<EventFunction> yields{crossing_.function};
   ASSERT_TRUE(find(path, yields));
   EXPECT_EQ(crossing_.function.kind, EventKind::contact_ends);
-}
-
-TEST_F(ContactCrossing, EventsChangeTheBranch) {
-  contact_.pass(EventKind::contact_begins, 3.0 * unit);
-  EXPECT_EQ(contact_.branch(), ContactBranch::elastic);
-  contact_.pass(EventKind::contact_yields, 3.0 * unit);
-  EXPECT_EQ(contact_.branch(), ContactBranch::plastic);
-  contact_.pass(EventKind::contact_unloads, 3.0 * unit);
-  EXPECT_EQ(contact_.branch(), ContactBranch::elastic);
-  EXPECT_NEAR(contact_.history().max_indentation, 3.0 * unit, 1e-18);
-  contact_.pass(EventKind::contact_ends, 3.0 * unit);
-  EXPECT_EQ(contact_.branch(), ContactBranch::separated);
-  EXPECT_FALSE(contact_.is_closed());
 }
 
 TEST(FirstFlow, IsWhenTheFirstSectionLeavesItsWindow) {

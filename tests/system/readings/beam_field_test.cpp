@@ -4,15 +4,9 @@
 #include "system/readings/beam_field.h"
 
 #include "dense.h"
-#include "model/mesh/cell_mesh.h"
-#include "model/mesh/hermite/hermite_mesh.h"
+#include "kinds_of_mesh.h"
 #include "model/mesh/modal_mesh.h"
-#include "model/mesh/rigid_mesh.h"
-#include "model/mesh/shear/spectral_mesh.h"
-#include "model/mesh/shear/timoshenko_mesh.h"
 #include "order_table.h"
-#include "paper_scene.h"
-#include "print.h"
 #include "struck_beam_of.h"
 #include "system/readings/support_reactions.h"
 
@@ -20,32 +14,6 @@ namespace subimpact {
 namespace {
 
 constexpr double third = 1.0 / 3.0;
-
-enum class Kind { cells, hermite, hinged, timoshenko, spectral };
-std::ostream& operator<<(std::ostream& out, Kind kind) {
-  constexpr const char* names[] = {"cells", "hermite", "hinged", "timoshenko", "spectral"};
-  return out << names[static_cast<int>(kind)];
-}
-
-bool shears(Kind kind) { return kind == Kind::timoshenko || kind == Kind::spectral; }
-// Whether the sections lie at the centres of cells.
-bool has_cells(Kind kind) { return kind == Kind::cells || kind == Kind::timoshenko; }
-
-Beam beam_with(Ends ends, Kind kind) {
-  Beam beam = paper_beam(shears(kind) ? BeamTheory::timoshenko : BeamTheory::rayleigh, ends);
-  if (shears(kind)) beam.poisson = 0.33;
-  return beam;
-}
-
-// `n`: cells or elements of the whole beam.
-std::shared_ptr<const BeamMesh> make_mesh(Kind kind, const Beam& beam, double position,
-                                          std::size_t n, bool half = false) {
-  const auto extent = half ? BeamMesh::Extent::half : BeamMesh::Extent::whole;
-  if (kind == Kind::cells) return std::make_shared<CellMesh>(beam, position, n, extent);
-  if (kind == Kind::timoshenko) return std::make_shared<TimoshenkoMesh>(beam, position, n, extent);
-  if (kind == Kind::spectral) return std::make_shared<SpectralMesh>(beam, position, n, extent);
-  return std::make_shared<HermiteMesh>(beam, position, n, extent, kind == Kind::hinged);
-}
 
 class Meshes : public testing::TestWithParam<std::tuple<Kind, Ends>> {};
 

@@ -3,11 +3,8 @@
 
 #include "system/section/section_events.h"
 #include "dense.h"
-#include "model/mesh/cell_mesh.h"
-#include "model/mesh/hermite/hermite_mesh.h"
-#include "model/mesh/shear/timoshenko_mesh.h"
+#include "kinds_of_mesh.h"
 #include "order_table.h"
-#include "paper_scene.h"
 
 namespace subimpact {
 namespace {
@@ -160,41 +157,22 @@ TEST(OneSectionOnAKnownPath, StaysOnItsPieceIfAnEarlierEventKeepsItInItsWindow) 
 
 // What one section's moment does to the beam, worked out once a section.
 
-struct Mesh {
-  std::string name;
-  std::unique_ptr<BeamMesh> mesh;
-};
-
-std::vector<Mesh> meshes() {
-  using Extent = BeamMesh::Extent;
-  std::vector<Mesh> all;
-  const auto add = [&]<class Of>(const std::string& name, Of mesh) {
-    all.push_back({name, std::make_unique<Of>(std::move(mesh))});
-  };
-  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
-    const Beam beam = paper_beam(theory);
-    const std::string of = theory == BeamTheory::rayleigh ? "Rayleigh's " : "Euler's ";
-    add(of + "half of cells", CellMesh(beam, 0.5, 201, Extent::half));
-    add(of + "cells, struck off centre", CellMesh(beam, 0.317, 60, Extent::whole));
-    add(of + "half of elements", HermiteMesh(beam, 0.5, 40, Extent::half));
-  }
-  Beam shearing = paper_beam(BeamTheory::timoshenko);
-  shearing.poisson = 0.33;
-  add("half of cells that shear", TimoshenkoMesh(shearing, 0.5, 51, Extent::half));
-  shearing.ends = {pinned, clamped};
-  add("cells that shear, held, struck off centre",
-      TimoshenkoMesh(shearing, 0.317, 60, Extent::whole));
-  return all;
-}
-
-// Calls check(mesh, solver, influence) on every mesh.
+// Calls check(mesh, solver, influence) on meshes with a banded mass.
 template <class Check>
 void on_every_mesh(Check check) {
-  for (const Mesh& of : meshes()) {
-    SCOPED_TRACE(of.name);
-    const BandedSolver solver(of.mesh->mass());
-    SectionInfluence influence(*of.mesh, solver);
-    check(*of.mesh, solver, influence);
+  const auto on = [&](const std::shared_ptr<const BeamMesh>& mesh) {
+    SCOPED_TRACE(mesh->description());
+    const BandedSolver solver(mesh->mass());
+    SectionInfluence influence(*mesh, solver);
+    check(*mesh, solver, influence);
+  };
+  for (const Kind kind : {Kind::cells, Kind::hermite, Kind::timoshenko}) {
+    Beam beam = beam_with(free_ends, kind);
+    on(make_mesh(kind, beam, 0.5, has_cells(kind) ? 201 : 40, true));
+    on(make_mesh(kind, beam_with({pinned, clamped}, kind), 0.317, 60));
+    if (shears(kind)) continue;
+    beam.theory = BeamTheory::euler_bernoulli;
+    on(make_mesh(kind, beam, 0.5, has_cells(kind) ? 201 : 40, true));
   }
 }
 
