@@ -66,11 +66,11 @@ void expect_conserved(const Case& input, long least_steps = 100, double of_momen
 class Conservation : public testing::TestWithParam<SectionKind> {};
 
 TEST_P(Conservation, HoldsAtEveryStepOfErkAtOneInABillion) {
-  expect_conserved(paper_case(GetParam(), 8e-3), 1000);
+  expect_conserved(paper_case(GetParam(), 2e-3), 1000);
 }
 
 TEST_P(Conservation, HoldsAtEveryStepOfTheExponentialMethod) {
-  expect_conserved(paper_case(GetParam(), 8e-3, 501, Method::exponential), 100, 1e-11, 1e-11);
+  expect_conserved(paper_case(GetParam(), 4e-3, 501, Method::exponential), 100, 1e-11, 1e-11);
 }
 
 TEST_P(Conservation, OfMomentumHoldsAtEveryCentralDifference) {

@@ -1,8 +1,7 @@
-// Fields along the beam over whole runs: energy of shapes, supports' momentum, permanent set.
+// Fields along the beam over whole runs: energy of shapes, extremes, supports' momentum.
 
 #include <fmt/ranges.h>
 
-#include "case/problem.h"
 #include "linear_case.h"
 #include "order_table.h"
 
@@ -148,70 +147,92 @@ TEST(Shapes, AreOfRegularInstantsOfEveryEventAndOfTheEnd) {
   EXPECT_LE(result.used.n_shape_points, 103u);
 }
 
-TEST(ARunWithoutShapes, IsTheSame) {
-  Case input = paper_case(SectionKind::exact, 0.6e-3, 101);
-  EXPECT_EQ(resolve(input).settings().shape_interval, 0.0);  // no rows, no shapes
-  input.output.shapes = 1e-6;
-  const Result with = simulate(input);
-  input.output.shapes = 0.0;
-  const Result without = simulate(input);
-  EXPECT_TRUE(without.shapes.empty());
-  EXPECT_TRUE(without.envelope.empty());
-  EXPECT_EQ(with.work.steps, without.work.steps);
-  EXPECT_GT(with.work.right_hand_sides, without.work.right_hand_sides);  // of states within steps
-  ASSERT_EQ(with.sub_impacts.size(), without.sub_impacts.size());
-  for (std::size_t i = 0; i < with.sub_impacts.size(); ++i) {
-    EXPECT_EQ(with.sub_impacts[i].start, without.sub_impacts[i].start);
+// --- extremes --------------------------------------------------------------------------------
+
+TEST(ASampledPeak, BoundsTheTopOfAParabolaBetweenItsInstants) {
+  constexpr double drop = 0.01;  // a unit of time from the top
+  for (double top = -0.5; top <= 0.5; top += 0.125) {
+    SampledPeak peak;
+    for (int i = -3; i <= 3; ++i) peak.follow(1.0 - drop * (i - top) * (i - top), i % 2 == 0);
+    EXPECT_LE(peak.largest, 1.0);
+    EXPECT_GE(peak.largest + peak.sampling_error(), 1.0 - 1e-15) << top;
+    EXPECT_NEAR(peak.sampling_error(), 0.25 * drop, 1e-15) << top;
+    EXPECT_EQ(peak.shared, 1.0 - drop * top * top) << top;
   }
 }
 
-// --- envelope and permanent set ---------------------------------------------------------------
+TEST(ALargestMoment, LiesWithinItsErrorOfThatAtTenTimesAsManyInstants) {
+  Case input = paper_case(SectionKind::elastic, 2e-3, 101, Method::central_difference);
+  input.output.interval.reset();
+  const Result coarse = simulate(input);
+  input.output.interval = 1e-7;
+  const Result fine = simulate(input);
+  EXPECT_GT(coarse.peaks.moment.sampling_error(), 0.0);
+  EXPECT_LE(fine.peaks.moment.largest - coarse.peaks.moment.largest,
+            coarse.peaks.moment.sampling_error());
+}
 
-TEST(TheEnvelope, BoundsEveryShapeAndIsReachedAtItsTimes) {
-  Case input = paper_case(SectionKind::exact, 1e-3, 101);
+Case case_in_modes() {
+  Case input = paper_case(SectionKind::elastic, 0.5e-3, 501, Method::exponential);
+  input.scene.contact = {ContactKind::linear, 2e6, {}, {}, {}};
+  input.scene.striker.position = 0.4;
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 40;
   input.output.interval = 1e-6;
-  const Result result = simulate(input);
-  const std::size_t n = result.used.n_shape_points;
-  ASSERT_EQ(result.envelope.size(), n);
-  for (std::size_t k = 0; k < result.shapes.size(); ++k) {
-    const ShapeRow& row = result.shapes[k];
-    const EnvelopeRow& here = result.envelope[k % n];
-    ASSERT_EQ(row.position, here.position);
-    EXPECT_LE(row.moment, here.moment.largest.value);
-    EXPECT_GE(row.moment, here.moment.smallest.value);
-    EXPECT_LE(row.displacement, here.displacement.largest.value);
-    EXPECT_LE(-row.curvature * 0.5 * input.scene.beam.thickness, here.strain.largest.value);
-    EXPECT_LE(row.plastic_curvature, here.plastic_curvature.largest.value);
-    if (row.time == here.moment.largest.time) {
-      EXPECT_EQ(row.moment, here.moment.largest.value);
+  return input;
+}
+
+TEST(TheEnvelope, BoundsEveryShapeAndIsReached) {
+  Case yielding = paper_case(SectionKind::exact, 1e-3, 101);
+  yielding.output.interval = 1e-6;
+  // Fields of states in modes are read many at a time.
+  for (Case input : {yielding, case_in_modes()}) {
+    input.output.shapes = input.output.interval;  // so that nothing lies between shapes
+    const Result result = simulate(input);
+    const std::size_t n = result.used.n_shape_points;
+    ASSERT_EQ(result.envelope.size(), n);
+    std::vector<double> largest(n, 0.0), smallest(n, 0.0);
+    const double rounding = 1e-7 * result.peaks.moment.shared;
+    for (std::size_t k = 0; k < result.shapes.size(); ++k) {
+      const ShapeRow& row = result.shapes[k];
+      const EnvelopeRow& here = result.envelope[k % n];
+      ASSERT_EQ(row.position, here.position);
+      largest[k % n] = std::max(largest[k % n], row.moment);
+      smallest[k % n] = std::min(smallest[k % n], row.moment);
+      EXPECT_LE(row.displacement, here.displacement.largest.value + 1e-12);
+      EXPECT_LE(-row.curvature * 0.5 * input.scene.beam.thickness,
+                here.strain.largest.value + 1e-10);
+      EXPECT_LE(row.plastic_curvature, here.plastic_curvature.largest.value);
+      if (row.time == here.moment.largest.time) {
+        EXPECT_NEAR(row.moment, here.moment.largest.value, rounding);
+      }
     }
+    for (std::size_t i = 0; i < n; ++i) {
+      EXPECT_NEAR(result.envelope[i].moment.largest.value, largest[i], rounding) << i;
+      EXPECT_NEAR(result.envelope[i].moment.smallest.value, smallest[i], rounding) << i;
+    }
+    if (result.n_yielded_sections > 0) continue;  // with shapes at events, too
+    EXPECT_NEAR(result.peaks.moment.shared,
+                std::max(std::ranges::max(largest), -std::ranges::min(smallest)), rounding);
   }
 }
 
-// The slope jumps by kappa_p W at every section, hinges included, and is constant in between.
-double mid_span_set(const std::vector<ShapeRow>& shape, const BeamMesh& mesh, double length) {
-  double slope = 0.0, displacement = 0.0, middle = 0.0, x = 0.0;
-  const auto go_to = [&](double next) {
-    displacement += slope * (next - x);
-    x = next;
-  };
-  bool passed = false;
-  for (std::size_t j = 0; j < mesh.n_sections(); ++j) {
-    const double at = mesh.section_positions()[j];
-    if (!passed && at >= 0.5 * length) {
-      go_to(0.5 * length);
-      middle = displacement;
-      passed = true;
-    }
-    go_to(at);
-    const auto row = std::find_if(shape.begin(), shape.end(), [&](const ShapeRow& r) {
-      return std::abs(r.position - at) < 1e-12;
-    });
-    if (row == shape.end()) return std::nan("");
-    slope += row->plastic_curvature * mesh.section_weights()[j];
+// So that runs beside one another can be compared whatever shapes one of them keeps.
+TEST(TheExtremesOfShapes, AreOfTheSameInstantsHoweverFewShapesAreKept) {
+  Case input = case_in_modes();
+  input.output.interval.reset();
+  const Result usual = simulate(input);
+  input.output.shapes = 0.1 * input.end_time;
+  const Result few = simulate(input);
+  input.output.shapes = input.output.extremes_interval(input.end_time);
+  input.output.interval = 0.0;  // as a run beside
+  const Result none = simulate(input);
+  EXPECT_LT(5 * few.n_shape_rows, usual.n_shape_rows);
+  for (const Result* other : {&few, &none}) {
+    EXPECT_NEAR(other->peaks.moment.shared / usual.peaks.moment.shared, 1.0, 1e-7);
+    EXPECT_NEAR(other->peaks.displacement.shared / usual.peaks.displacement.shared, 1.0, 1e-7);
+    EXPECT_NEAR(other->peaks.strain.shared / usual.peaks.strain.shared, 1.0, 1e-7);
   }
-  go_to(length);
-  return middle - 0.5 * displacement;
 }
 
 TEST(PlasticCurvatures, OfElasticBeamsAreZeroAndNotRounding) {
@@ -225,34 +246,6 @@ TEST(PlasticCurvatures, OfElasticBeamsAreZeroAndNotRounding) {
     const auto is_elastic = [](const auto& row) { return row.plastic_curvature == 0.0; };
     EXPECT_TRUE(std::ranges::all_of(result.shapes, is_elastic));
     EXPECT_TRUE(std::ranges::all_of(result.section_history, is_elastic));
-  }
-}
-
-TEST(ThePermanentSet, IsTheDoubleIntegralOfTheLastPlasticCurvatures) {
-  for (const MeshKind kind : {MeshKind::cells, MeshKind::hermite}) {
-    Case input = paper_case(SectionKind::exact, 1e-3, 101, Method::nystrom);
-    input.model.mesh = kind;
-    input.model.elements = 60;
-    input.model.symmetry = SymmetryUse::off;
-    input.output.shapes = 1e-4;
-    input.output.shape_points = 1000;
-    const Result result = simulate(input);
-    const std::shared_ptr<const BeamMesh> mesh = problem_of(input).mesh;
-    const double l = input.scene.beam.length;
-    const std::size_t n = result.used.n_shape_points;
-    const std::vector<ShapeRow> last(result.shapes.end() - static_cast<std::ptrdiff_t>(n),
-                                     result.shapes.end());
-    const double set = mid_span_set(last, *mesh, l);
-    double found = 0.0, rotation = 0.0;
-    for (const EnvelopeRow& row : result.envelope) {
-      if (std::abs(row.position - 0.5 * l) < 1e-9) found = row.permanent_set;
-    }
-    for (const PlasticZone& zone : result.plastic_zones) {
-      if (zone.from <= 0.5 * l && zone.to >= 0.5 * l) rotation = zone.rotation;
-    }
-    EXPECT_GT(std::abs(found), 1e-4);
-    EXPECT_NEAR(found, set, 1e-10 * std::abs(set));
-    EXPECT_LT(rotation * found, 0.0);  // a hinge that turns the ends back
   }
 }
 
@@ -350,32 +343,6 @@ TEST(Reactions, HaveTheirExtremesInTheResultAndAWarningWhereASupportPulls) {
   }
   Case free = linear_case(MeshKind::hermite, 30, third, EndSupport::free);
   EXPECT_FALSE(completed(free).reactions[0]);
-}
-
-TEST(Reactions, ChangePlacesWithTheEnds) {
-  Case input = linear_case(MeshKind::hermite, 30, third, clamped);
-  input.output.interval = 1e-5;
-  input.scene.beam.ends = {clamped, pinned};
-  const Result here = simulate(input);
-  input.scene.beam.ends = {pinned, clamped};
-  input.scene.striker.position = 1.0 - third;
-  const Result there = simulate(input);
-  ASSERT_EQ(here.history.size(), there.history.size());
-  double largest = 0.0;
-  for (const HistoryRow& row : here.history) largest = std::max(largest, *row.first_reaction);
-  for (std::size_t i = 0; i < here.history.size(); ++i) {
-    EXPECT_NEAR(*here.history[i].first_reaction, *there.history[i].last_reaction, 1e-6 * largest);
-    EXPECT_NEAR(*here.history[i].last_reaction, *there.history[i].first_reaction, 1e-6 * largest);
-  }
-}
-
-TEST(Reactions, AreNoneAtFreeEnds) {
-  Case input = linear_case(MeshKind::cells, 31, 0.5, free_end);
-  input.output.interval = 1e-5;
-  for (const HistoryRow& row : simulate(input).history) {
-    EXPECT_FALSE(row.first_reaction);
-    EXPECT_FALSE(row.last_reaction);
-  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include "case/problem.h"
 #include "linear_case.h"
-#include "order_table.h"
 
 namespace subimpact {
 namespace {
@@ -106,52 +105,6 @@ TEST(Gauges, AgreeWithTheClosedFormOfABeamUnderAForce) {
   }
 }
 
-// The largest difference from the first mode of a pinned beam, over its amplitude: the beam starts
-// at rest under a load q0 sin(pi x/l), which is taken away at t1, and
-//
-//     eps = q0 l^2 h/(2 pi^2 E I) sin(pi x/l) cos(omega (t - t1)),  omega = (pi/l)^2 sqrt(E I/(rho
-//     A)).
-double error_in_first_mode(int segments) {
-  constexpr double q0 = 100.0, t1 = 1e-4;
-  std::vector<PointForce> forces;
-  Case input = loaded_case(segments, {});
-  const Beam& beam = input.scene.beam;
-  for (int i = 0; i < segments; ++i) {
-    const double x = (i + 0.5) / segments;
-    const double force = q0 * std::sin(M_PI * x) * beam.length / segments;
-    forces.push_back({x, {{0.0, force}, {t1, force}, {t1, 0.0}}});
-  }
-  input.scene.beam.forces = forces;
-  const double omega = std::pow(M_PI / beam.length, 2) *
-                       std::sqrt(beam.bending_stiffness() / beam.mass_per_length());
-  input.end_time = t1 + 1.5 * 2.0 * M_PI / omega;
-  input.output.interval = input.end_time / 60.0;
-  const std::vector<double> places = {0.12, 0.3, 0.5, 0.7777};
-  for (const double x : places) input.output.gauges.push_back({x});
-  const double amplitude = q0 * beam.length * beam.length * beam.thickness /
-                           (2.0 * M_PI * M_PI * beam.bending_stiffness());
-  double error = 0.0;
-  for (const HistoryRow& row : completed(input).history) {
-    const double phase = std::cos(omega * std::max(row.time - t1, 0.0));
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const double expected = amplitude * std::sin(M_PI * places[i]) * phase;
-      error = std::max(error, std::abs(row.gauge_strains[i] - expected) / amplitude);
-    }
-  }
-  return error;
-}
-
-TEST(Gauges, ApproachTheClosedFormOfAFreeVibrationAsTheSquareOfTheCellLength) {
-  OrderTable table("strain in the first mode, over its amplitude");
-  double error = 0.0;
-  for (const int n : {15, 45, 135}) {
-    error = error_in_first_mode(n);
-    table.add(n, error);
-  }
-  table.expect_every_order_within(1.9, 2.1);
-  EXPECT_LT(error, 1e-3);
-}
-
 // --- yielding ------------------------------------------------------------------------------------
 
 // Elastic-perfectly plastic layers of a rectangle, each with the stress of its middle.
@@ -209,25 +162,29 @@ TEST(Gauges, ReadTheStrainWithWhichFibresThatYieldGiveTheMoment) {
                  fmt::format("{:.2e}", difference / beam.yield_moment()));
 }
 
-// --- keys ----------------------------------------------------------------------------------------
+// --- all readings --------------------------------------------------------------------------------
 
-TEST(Gauges, ChangeNothingElse) {
-  Case input = paper_case(SectionKind::exact, 1e-4, 51);
+TEST(Readings, OfGaugesSectionsPointsAndShapesChangeNothingElse) {
+  Case input = paper_case(SectionKind::exact, 2e-4, 51);
   input.output.interval = 1e-6;
+  input.output.shapes = 0.0;
   const Result without = simulate(input);
+  EXPECT_TRUE(without.shapes.empty() && without.envelope.empty());
   input.output.gauges = {{0.3, Face::front}};
+  input.output.sections = input.output.points = {0.5};
+  input.output.shapes = 1e-6;
   const Result with = simulate(input);
-  EXPECT_TRUE(without.history.back().gauge_strains.empty());
-  EXPECT_EQ(with.striker_velocity, without.striker_velocity);
+  EXPECT_FALSE(with.shapes.empty() || with.section_history.empty());
   EXPECT_EQ(with.history.size(), without.history.size());
   EXPECT_EQ(with.work.steps, without.work.steps);
+  EXPECT_EQ(with.striker_velocity, without.striker_velocity);
 }
 
-TEST(Gauges, WithoutHistoryRowsAreRefused) {
-  Case input = paper_case(SectionKind::exact, 1e-4, 51);
-  input.output.interval = 0.0;
-  input.output.gauges = {{0.3, Face::back}};
-  EXPECT_THROW(simulate(input), InvalidCase);
+TEST(Readings, WithoutHistoryRowsAreRefused) {
+  Case gauges = paper_case(SectionKind::exact, 1e-4, 51), sections = gauges;
+  gauges.output.gauges = {{0.3, Face::back}};
+  sections.output.sections = {0.5};
+  for (const Case& input : {gauges, sections}) EXPECT_THROW(simulate(input), InvalidCase);
 }
 
 }  // namespace

@@ -58,23 +58,5 @@ TEST(ThePublishedRun, SeparatesLaterOnCellsThatFillTheBeam) {
   EXPECT_NEAR(first_separation_us(input), 217.15, 0.05);
 }
 
-TEST(ThePublishedRun, IsThatOfABeamLongerByASpacing) {
-  Case input = published_run(1e-3);
-  const Result points = simulate(input);
-  input.model.spacing = CellSpacing::cells;
-  input.scene.beam.length *= 501.0 / 500.0;
-  const Result longer = simulate(input);
-  expect_same_ends(points, longer, 1e-5);
-}
-
-TEST(AnElasticBeamOnPoints, MovesTheSameInItsModesInClosedForm) {
-  Case input = paper_case(SectionKind::elastic, 0.6e-3, 501, Method::nystrom);
-  input.model.spacing = CellSpacing::points;
-  const Result on_mesh = simulate(input);
-  input.solver.method = Method::exponential;
-  const Result in_modes = simulate(input);
-  expect_same_ends(on_mesh, in_modes, 1e-3);
-}
-
 }  // namespace
 }  // namespace subimpact

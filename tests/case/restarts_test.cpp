@@ -153,16 +153,6 @@ TEST(Restarts, WhereTimesOfDifferentKindsMeet) {
   }
 }
 
-TEST(Restarts, AFallFromRestIsThatOfItsDropHeight) {
-  Case input = rigid_case(ContactKind::linear, 0.0, 0.1);
-  input.scene.beam.fixed = true;
-  input.scene.gravity = 9.81;
-  input.scene.striker.gap = 1e-2;
-  const Result result = simulate(input);
-  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
-  EXPECT_NEAR(result.first_touch.striker, std::sqrt(2.0 * 9.81 * 1e-2), 1e-9);
-}
-
 // m g d = K d^(n + 1)/(n + 1) at the largest indentation d.
 TEST(Restarts, AStrikerSetDownPressesWithItsWeightTimesNPlus1) {
   for (const auto& [kind, n] : {std::pair{ContactKind::linear, 1.0}, {ContactKind::hertz, 1.5}}) {

@@ -80,49 +80,6 @@ TEST_P(AModeInFreeDecay, FollowsTheClosedFormTo1e9OfItsAmplitude) {
   }
 }
 
-TEST(ADampedBeam, KeepsEnergyAndMomentumWithWhatItsDampingTakes) {
-  for (const Method method :
-       {Method::exponential, Method::erk, Method::adams, Method::bdf, Method::dirk}) {
-    Case input = elastic_case({0.0, 400.0, 2e-8});
-    input.solver.method = method;
-    input.solver.rtol = 1e-9;
-    input.output.interval = 1e-5;
-    const Result result = completed(input);
-    const double bound = method == Method::exponential || method == Method::erk ? 1e-8 : 1e-6;
-    EXPECT_LT(result.max_energy_error, bound) << to_string(method);
-    EXPECT_LT(result.max_momentum_error.value(), 1e-11) << to_string(method);
-    EXPECT_GT(result.beam_damping_loss, 1e-3 * result.used.initial_energy);
-    EXPECT_EQ(result.history.back().beam_damping, result.beam_damping_loss);
-    double last = 0.0;
-    for (const HistoryRow& row : result.history) {
-      EXPECT_GE(row.beam_damping, last - 1e-12 * result.used.initial_energy);
-      last = row.beam_damping;
-    }
-  }
-}
-
-TEST(ADampedBeam, MeetsTheStrikerAtTheSameTimesByOscillatorsAndByRungeKutta) {
-  for (const BeamDamping& damping : {BeamDamping{0.01, 0.0, 0.0}, BeamDamping{0.0, 400.0, 2e-8}}) {
-    Case input = elastic_case(damping, 0.6e-3);
-    const Result here = simulate(input);
-    input.solver.method = Method::exponential;
-    const Result there = simulate(input);
-    ASSERT_GE(here.sub_impacts.size(), 3u);
-    expect_same_starts(here, there, 1e-4);
-    expect_same_ends(here, there, 1e-4);
-    EXPECT_NEAR(here.beam_damping_loss, there.beam_damping_loss, 1e-6 * there.used.initial_energy);
-  }
-}
-
-TEST(ADampedBeam, ThatYieldsKeepsItsEnergyToo) {
-  Case input = elastic_case({0.0, 400.0, 2e-8});
-  input.model.section = SectionKind::exact;
-  const Result result = completed(input);
-  EXPECT_GT(result.n_yielded_sections, 0u);
-  EXPECT_LT(result.max_energy_error, 1e-5);
-  EXPECT_LT(result.max_momentum_error.value(), 1e-11);
-}
-
 // Stiffness damping of 8 % in the first mode leaves high modes without oscillation: they follow at
 // once, and the steps of a free flight need not follow them.
 TEST(ABeamWithModesFarBeyondCriticalDamping, IsIntegratedInFewSteps) {
@@ -134,20 +91,6 @@ TEST(ABeamWithModesFarBeyondCriticalDamping, IsIntegratedInFewSteps) {
   const Result result = completed(input);
   EXPECT_LT(result.max_energy_error, 1e-6);
   EXPECT_LT(result.work.steps + result.work.rejected_steps, 1000);
-}
-
-TEST(ADampedRigidBeam, SlowsDownAsItsMassIsDamped) {
-  Case input = elastic_case({0.0, 2000.0, 0.0}, 2e-3);
-  input.model.mesh = MeshKind::rigid;
-  for (const Method method : {Method::erk, Method::exponential}) {
-    input.solver.method = method;
-    const Result result = completed(input);
-    const double end = result.sub_impacts.at(0).end.value();
-    // Free of the striker its velocity falls as e^(-alpha t), unless the striker catches up.
-    EXPECT_LT(result.max_energy_error, 1e-8);
-    EXPECT_LT(result.max_momentum_error.value(), 1e-11);
-    EXPECT_GT(end, 0.0);
-  }
 }
 
 // Methods that need forces of positions, and those that do not integrate modes, name those that

@@ -92,47 +92,6 @@ TEST(HermiteElements, BringTheFirstFiveSubImpactsAtFourthOrder) {
   five.expect_overall_order_within(3.6, 4.4);
 }
 
-struct Setting {
-  const char* name;
-  Method method;
-  double rtol;
-  double bound_us;
-};
-
-std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out << setting.name; }
-
-class HermiteElementsBy : public testing::TestWithParam<Setting> {};
-
-const Setting settings[] = {{"central_difference", Method::central_difference, 1e-8, 2.0},
-                            {"erk", Method::erk, 1e-9, 1e-4},
-                            {"dirk", Method::dirk, 1e-6, 5e-3},
-                            {"adams", Method::adams, 1e-8, 1e-3},
-                            {"bdf", Method::bdf, 1e-8, 1e-3},
-                            {"exponential", Method::exponential, 1e-9, 1e-4}};
-INSTANTIATE_TEST_SUITE_P(, HermiteElementsBy, testing::ValuesIn(settings), NamedAsPrinted{});
-
-TEST_P(HermiteElementsBy, EveryMethodFindsTheSameSubImpacts) {
-  Case input = hermite_case(SectionKind::elastic, 0.32e-3, 40);
-  input.solver.rtol = 1e-11;
-  const Result reference = simulate(input);
-  input.solver.method = GetParam().method;
-  input.solver.rtol = GetParam().rtol;
-  const Result result = completed(input);
-  expect_same_starts(result, reference, GetParam().bound_us);
-  expect_same_ends(result, reference, GetParam().bound_us);
-}
-
-TEST_P(HermiteElementsBy, EveryMethodGoesThroughAYieldingBeam) {
-  Case input = hermite_case(SectionKind::exact, 0.15e-3, 40);
-  input.solver.rtol = 1e-11;
-  const Result reference = simulate(input);
-  input.solver.method = GetParam().method;
-  input.solver.rtol = GetParam().rtol;
-  const Result result = completed(input);
-  EXPECT_GT(result.n_yielded_sections, 10u);
-  EXPECT_NEAR(result.striker_velocity, reference.striker_velocity, 0.2 * GetParam().bound_us);
-}
-
 // The opening near 201.5 us lasts 1.8 us.
 TEST(HermiteElements, WithHingesResolveTheYieldingBeamOnAMeshThatServesTheElasticOne) {
   Case input = hermite_case(SectionKind::exact, 0.25e-3, 50);
@@ -148,58 +107,6 @@ TEST(HermiteElements, WithHingesResolveTheYieldingBeamOnAMeshThatServesTheElasti
   input = hermite_case(SectionKind::exact, 0.25e-3, 200);
   input.model.hinges = HingeUse::off;
   EXPECT_GT(end_us(simulate(input).sub_impacts.at(0)), 214.0);
-}
-
-// Whole models have two slopes at the hinge where half models have one.
-TEST(HermiteElements, WithHingesAreTheSameInHalfAndWhole) {
-  Case input = hermite_case(SectionKind::exact, 0.25e-3, 30);
-  input.scene.beam.ends = {clamped, clamped};
-  const Result half = simulate(input);
-  input.model.symmetry = SymmetryUse::off;
-  const Result whole = simulate(input);
-  EXPECT_NEAR(half.used.critical_step, whole.used.critical_step, 1e-4 * half.used.critical_step);
-  ASSERT_EQ(half.sub_impacts.size(), whole.sub_impacts.size());
-  EXPECT_NEAR(end_us(half.sub_impacts[0]), end_us(whole.sub_impacts[0]), 1e-4);
-}
-
-TEST(HermiteElements, HaveNoStableStepOfCentralDifferencesBeyondTheirOwn) {
-  Case input = hermite_case(SectionKind::elastic, 0.3e-3, 40);
-  input.solver.method = Method::central_difference;
-  const double critical = resolve(input).settings().critical_step;
-  input.solver.step = 0.999 * critical;
-  EXPECT_TRUE(simulate(input).outcome.completed());
-  input.solver.step = 1.001 * critical;
-  EXPECT_THROW(simulate(input), InvalidCase);
-  input.study.beyond_critical = true;
-  EXPECT_EQ(simulate(input).outcome.kind, OutcomeKind::unstable);
-}
-
-TEST(HermiteElements, InHalfAndWholeModelGiveTheSameEvents) {
-  for (const SectionKind section : {SectionKind::elastic, SectionKind::exact}) {
-    Case input = hermite_case(section, 0.3e-3, 40);
-    input.solver.step = 1e-7;
-    const Result half = simulate(input);
-    input.model.symmetry = SymmetryUse::off;
-    const Result whole = simulate(input);
-    // The hinge under the striker of a beam that may yield is its own mirror image.
-    const std::size_t shared = section == SectionKind::exact ? 1 : 0;
-    EXPECT_EQ(whole.used.n_sections, 2 * half.used.n_sections - shared);
-    expect_same_ends(half, whole, 1e-6);
-  }
-}
-
-TEST(HermiteElements, StruckOnTheOtherSideGiveTheMirroredEvents) {
-  Case input = hermite_case(SectionKind::exact, 0.3e-3, 40);
-  input.solver.step = 5e-8;
-  input.scene.striker.position = 0.31;
-  input.scene.beam.ends = {pinned, clamped};
-  const Result left = simulate(input);
-  input.scene.striker.position = 0.69;
-  input.scene.beam.ends = {clamped, pinned};
-  const Result right = simulate(input);
-  ASSERT_EQ(left.sub_impacts.size(), right.sub_impacts.size());
-  EXPECT_NEAR(left.striker_velocity, right.striker_velocity, 1e-9);
-  EXPECT_LT(left.max_energy_error, 1e-6);
 }
 
 // Two meshes that have nothing in common come to the same motion.

@@ -153,42 +153,5 @@ TEST(ResultsOfRuns, ReportInOneLineAndKeepWhatWasGiven) {
   EXPECT_FALSE(result.given.solver.events.has_value());
 }
 
-// Several runs at once, each with the results that it has alone.
-
-std::vector<Case> different_cases() {
-  std::vector<Case> cases;
-  for (const Method method :
-       {Method::erk, Method::nystrom, Method::exponential, Method::central_difference,
-        Method::adams, Method::bdf, Method::dirk}) {
-    for (const MeshKind mesh : {MeshKind::cells, MeshKind::hermite}) {
-      Case input = paper_run(SectionKind::exact, 3e-4, 51, method);
-      input.model.mesh = mesh;
-      input.model.elements = 20;
-      if (method == Method::exponential) input.model.section = SectionKind::elastic;
-      input.output.interval = 1e-5;
-      input.solver.rtol = 1e-7;
-      cases.push_back(input);
-    }
-  }
-  return cases;
-}
-
-TEST(RunsInSeveralThreads, GiveTheBitsOfRunsOneAfterTheOther) {
-  const std::vector<Case> cases = different_cases();
-  // Twice over, so that every case also runs beside itself.
-  std::vector<std::future<Result>> at_once;
-  for (int round = 0; round < 2; ++round) {
-    for (const Case& input : cases) {
-      at_once.push_back(std::async(std::launch::async, [&input] { return simulate(input); }));
-    }
-  }
-  for (std::size_t i = 0; i < at_once.size(); ++i) {
-    const Case& input = cases[i % cases.size()];
-    SCOPED_TRACE(to_string(input.solver.method));
-    const Result alone = completed(input);
-    expect_same(at_once[i].get(), alone);
-  }
-}
-
 }  // namespace
 }  // namespace subimpact

@@ -27,22 +27,6 @@ TEST(AnOwnSection, IsTheBuiltInOneBitForBitWhereItIsTheSame) {
   expect_same(simulate(input), own_layers);
 }
 
-// The whole rectangle as strips: the same but for rounding, which the strike makes larger.
-TEST(AnOwnSection, OfStripsThatMakeARectangleBendsAsTheRectangleDoes) {
-  Case input = paper_case();
-  const Result exact = simulate(input);
-  input.parts.section =
-      Fibres::strips({{.from = 0.0, .to = 0.3}, {.from = 0.3, .to = 1.0}}, "two strips");
-  const Result strips = simulate(input);
-  EXPECT_EQ(strips.used.section, "two strips");
-  ASSERT_EQ(strips.sub_impacts.size(), exact.sub_impacts.size());
-  EXPECT_EQ(strips.n_yielded_sections, exact.n_yielded_sections);
-  for (std::size_t i = 0; i < exact.sub_impacts.size(); ++i) {
-    EXPECT_NEAR(strips.sub_impacts[i].start, exact.sub_impacts[i].start, 1e-10);
-    EXPECT_NEAR(strips.sub_impacts[i].impulse, exact.sub_impacts[i].impulse, 1e-6);
-  }
-}
-
 // A fibre may be as strong as the whole and half as wide: a beam of half the width has half the
 // stiffness and, at half the density, the same motion.
 TEST(AnOwnSection, OfHalfTheWidthIsABeamOfHalfTheWidth) {
@@ -73,17 +57,6 @@ TEST(AnOwnSection, KeepsItsAccountsWhereItYieldsAndWhereItDoesNot) {
     EXPECT_EQ(result.used.section,
               method == Method::exponential ? "sandwich, elastic" : "sandwich");
   }
-}
-
-TEST(AnOwnSection, StopsOnTheProofThatNoContactFollows) {
-  Case input = paper_case();
-  input.end_time = 8e-3;
-  input.stop = StopRule::no_more_contact;
-  input.solver.rtol = 1e-7;
-  input.parts.section = Fibres::strips({{.from = 0.5, .to = 1.0, .yield = 0.5}}, "box");
-  const Result stopped = completed(input);
-  input.stop = StopRule::end_time;
-  EXPECT_EQ(simulate(input).sub_impacts.size(), stopped.sub_impacts.size());
 }
 
 }  // namespace

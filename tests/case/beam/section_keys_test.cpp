@@ -70,16 +70,6 @@ TEST(SectionKeys, RefuseLawsThatDoNotDescribeNoseAndSection) {
       "contact.damping", "contact.law = \"sphere\" loses its energy by yielding");
 }
 
-TEST(SectionKeys, GiveTheSameRunInShortAndLongFormOfARectangle) {
-  const Case brief = with({}, true);
-  const Beam& beam = brief.scene.beam;
-  const Result one = simulate(brief);
-  const Result other =
-      simulate(with({{"beam.section.height", beam.thickness}, {"beam.section.width", beam.width}}));
-  EXPECT_EQ(one.max_force, other.max_force);
-  EXPECT_EQ(one.striker_velocity, other.striker_velocity);
-}
-
 // Three fixed numbers of the physics: a heavier section, a harder one and a rounder nose.
 TEST(SectionKeys, HardeningBendsLessAndARoundNosePressesDeeper) {
   Case input = with({}, true);

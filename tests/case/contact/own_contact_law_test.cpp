@@ -133,17 +133,6 @@ TEST(AnOwnContactLaw, ThatYieldsFromTheFirstTouchHasItsRestitution) {
   }
 }
 
-TEST(AnOwnContactLaw, ThatYieldsFromTheFirstTouchFollowsTheBeamThroughItsSubImpacts) {
-  Case input = paper_case();
-  input.solver.rtol = 1e-10;
-  input.parts.contact_law = std::make_shared<TwoLines>(1e8, 4e8);
-  const Result by_erk = completed(input);
-  ASSERT_GT(by_erk.sub_impacts.size(), 2u);
-  input.solver.method = Method::nystrom;
-  const Result by_nystrom = simulate(input);
-  expect_same_starts(by_nystrom, by_erk, 1e-3);
-}
-
 /// A line with something wrong.
 class WrongLine final : public ContactLaw {
  public:
@@ -185,27 +174,6 @@ class WrongLine final : public ContactLaw {
   static constexpr double k = 1e7;
   Fault fault_;
 };
-
-TEST(AnOwnContactLaw, ThatBreaksItsContractEndsTheRunAsInaccurate) {
-  using Fault = WrongLine::Fault;
-  for (const Method method : {Method::erk, Method::nystrom, Method::central_difference}) {
-    Case input = rigid_case();
-    input.solver.method = method;
-    input.parts.contact_law = std::make_shared<WrongLine>(Fault::none);
-    EXPECT_TRUE(simulate(input).outcome.completed());
-    for (const Fault fault : {Fault::pulls, Fault::jumps, Fault::loses_energy, Fault::gains_energy,
-                              Fault::wrong_residual}) {
-      for (const double interval : {0.0, 1e-5}) {
-        input.output.interval = interval;
-        input.parts.contact_law = std::make_shared<WrongLine>(fault);
-        const Result result = simulate(input);
-        EXPECT_EQ(result.outcome.kind, OutcomeKind::inaccurate)
-            << to_string(method) << ' ' << static_cast<int>(fault) << ' ' << result.outcome.message;
-        EXPECT_TRUE(result.outcome.first_failure);
-      }
-    }
-  }
-}
 
 // The same without the look at the law beforehand: the accounts of the run find it.
 TEST(AnOwnContactLaw, ThatBreaksItsContractIsCaughtByTheRunToo) {

@@ -10,17 +10,6 @@ Case central(SectionKind section, double end_time) {
   return paper_case(section, end_time, 501, Method::central_difference);
 }
 
-TEST(CentralDifferencesAtATenthOfAMicrosecond, FindTheFirstNineSubImpactsOfLayers) {
-  Case input = central(SectionKind::layers, 1e-3);
-  input.solver.step = 1e-7;
-  const Result result = simulate(input);
-  EXPECT_EQ(result.sub_impacts.size(), 8u);
-  // The ninth begins after 1 ms; eight end before it.
-  input.end_time = 1.42e-3;
-  const auto errors = errors_us(simulate(input), reference_table("seed_layers40"), 9);
-  EXPECT_LT(std::ranges::max(errors), 1.5);
-}
-
 void expect_second_order(std::optional<EventHandling> events, double band) {
   const double reference = reference_table("seed_elastic").front().end_us;
   OrderTable table("error of the first separation, us, over steps per us");

@@ -68,15 +68,6 @@ TEST_P(AMethod, GoesThroughAYieldingBeam) {
                                                                   : ReversalHandling::step_end);
 }
 
-TEST(ImplicitMethods, ConserveEnergyToTheirTolerance) {
-  Case input = Setting{"", Method::dirk, {}, {}, 1e-6, 0.0}.on(SectionKind::elastic, 0.3e-3);
-  const double coarse = simulate(input).max_energy_error;
-  input.solver.rtol = 1e-8;
-  const double fine = simulate(input).max_energy_error;
-  EXPECT_LT(coarse, 1e-5);
-  EXPECT_LT(fine, 0.1 * coarse);
-}
-
 TEST(ImplicitMethods, TakeAFixedStepAboveTheCriticalOne) {
   Case input = Setting{"", Method::dirk, {}, {}, 1e-6, 0.0}.on(SectionKind::elastic, 0.3e-3);
   input.solver.step = 4e-7;

@@ -13,30 +13,9 @@ struct Table {
 
 void PrintTo(const Table& table, std::ostream* out) { *out << table.name; }
 
-class AgainstTheReference : public testing::TestWithParam<Table> {};
-
-TEST_P(AgainstTheReference, AllSubImpactsAreFoundAndThoseBeforeTwoMillisecondsAtTheirTimes) {
-  const Table& table = GetParam();
-  const Result result = completed(paper_case(table.section, 8e-3));
-  std::vector<ReferenceEvent> reference = reference_table(table.name);
-  EXPECT_EQ(result.sub_impacts.size(), reference.size());
-  std::erase_if(reference, [](const ReferenceEvent& row) { return row.start_us > 2000.0; });
-  ASSERT_EQ(std::ranges::count_if(result.sub_impacts,
-                                  [](const SubImpact& s) { return start_us(s) <= 2000.0; }),
-            std::ssize(reference));
-  EXPECT_LT(std::ranges::max(errors_us(result, reference, reference.size())), table.time_bound_us);
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    if (table.section == SectionKind::elastic && i == 7) continue;  // see the last test
-    const double expected = 1e-3 * reference[i].max_indentation_mm;
-    EXPECT_NEAR(result.sub_impacts[i].max_indentation, expected, 1e-5 * expected) << i;
-  }
-}
-
 const Table tables[] = {{"seed_elastic", SectionKind::elastic, 1e-3},
                         {"seed_exact", SectionKind::exact, 2e-3},
                         {"seed_layers40", SectionKind::layers, 4e-3}};
-
-INSTANTIATE_TEST_SUITE_P(, AgainstTheReference, testing::ValuesIn(tables), NamedAsPrinted{});
 
 // The two other treatments of events, with a table of shorter steps: interpolation within the steps
 // of dop853 loses or invents a sub-impact after 5 ms. Times that are interpolated scatter with
@@ -64,18 +43,6 @@ INSTANTIATE_TEST_SUITE_P(, WithoutLocation,
                                           testing::Values(EventHandling::interpolated,
                                                           EventHandling::library)),
                          NamedAsPrinted{});
-
-TEST(TheEighthElasticPeak, IsHigherThanTheTableSampledItAndCentralDifferencesAgree) {
-  Case input = paper_case(SectionKind::elastic, 0.6e-3);
-  const double erk = simulate(input).sub_impacts.at(7).max_indentation;
-  input.solver.method = Method::central_difference;
-  input.solver.step = 5e-9;
-  const double central = simulate(input).sub_impacts.at(7).max_indentation;
-  const double table = 1e-3 * reference_table("seed_elastic").at(7).max_indentation_mm;
-  EXPECT_LT(std::abs(erk / central - 1.0), 5e-6);
-  EXPECT_GT(erk, table);
-  EXPECT_LT(erk / table - 1.0, 5e-5);
-}
 
 // The whole strike, every event against the error the reference tables state for it.
 
@@ -106,6 +73,10 @@ TEST_P(TheWholeStrike, AgreesWithTheTableWithinItsErrors) {
     const double stated = 3.0 * reference[i].error_us + bound.allowance_us;
     const bool early = reference[i].end_us < 2000.0;
     EXPECT_LT(error, early ? std::min(stated, bound.before_2ms_us) : stated) << i;
+    // The table has sampled the eighth elastic peak, which lies between its samples.
+    if (!early || (bound.section == SectionKind::elastic && i == 7)) continue;
+    const double expected = 1e-3 * reference[i].max_indentation_mm;
+    EXPECT_NEAR(result.sub_impacts[i].max_indentation, expected, 1e-5 * expected) << i;
   }
 }
 
