@@ -134,9 +134,7 @@ Mesh make_cell_mesh(const Case& input) {
 }
 
 Mesh make_hermite_mesh(const Case& input) {
-  const bool has_hinges = input.model.hinges == HingeUse::automatic && may_yield(input);
-  return make_mesh<HermiteMesh>(input, input.model.elements, extent_of<HermiteMesh>(input),
-                                has_hinges);
+  return make_mesh<HermiteMesh>(input, input.model.elements, extent_of<HermiteMesh>(input));
 }
 
 Mesh make_spectral_mesh(const Case& input) {
@@ -152,15 +150,14 @@ double size_of_elements(const Case& input) {
   return input.scene.beam.length / input.model.elements;
 }
 
+// Natural modes are for beams that may yield, but hardly do.
 int order_of_elements(const Case& input) {
   if (!may_yield(input)) return 4;
-  return input.model.hinges == HingeUse::off ? 1 : 2;
+  return input.solver.method == Method::exponential ? 2 : 1;
 }
 
 constexpr const char* keys_of_cells[] = {"model.segments", "model.spacing", "model.symmetry"};
-constexpr const char* keys_of_elements[] = {"model.elements", "model.hinges", "model.symmetry"};
-
-constexpr const char* keys_of_spectral[] = {"model.elements", "model.symmetry"};
+constexpr const char* keys_of_elements[] = {"model.elements", "model.symmetry"};
 
 constexpr MeshDescriptor rows[] = {
     {.kind = MeshKind::cells,
@@ -187,7 +184,7 @@ constexpr MeshDescriptor rows[] = {
     {.kind = MeshKind::spectral,
      .name = "spectral",
      .note = "elements of degree 4 for beams that shear",
-     .keys = keys_of_spectral,
+     .keys = keys_of_elements,
      .suits = [](const Beam& beam) { return beam.shears(); },
      .check = check_elements,
      .make = make_spectral_mesh,

@@ -32,6 +32,7 @@ constexpr const char* sentences[] = {
     "it lasts to the end and {value:.0f} parts of the mesh do not resolve the bending waves of contacts as short as {u_time:.2g} us as {limit:.0f} would",
     "its contact lasts {u_value:.2g} us and the mesh shows none shorter than {u_limit:.2g} us: it does not resolve the bending waves",
     "the separation after it lasts {u_value:.2g} us and the mesh shows none shorter than {u_limit:.2g} us: it does not resolve the bending waves",
+    "elements do not resolve where the beam yields under the striker: use model.mesh = \"cells\"",
     "solver.rtol = {value:.2g} is too loose for runs to show each other's errors",
     "the error of its times is {u_error:.2g} us",
     "no coarser run is possible that shows the error",

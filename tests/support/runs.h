@@ -19,7 +19,6 @@ inline Result completed(const Case& input) {
 /// a stress that it does not reach. The law of the contact has to have its own constants.
 inline Case at_nodes(Case input) {
   input.model.section = SectionKind::exact;
-  input.model.hinges = HingeUse::off;
   input.scene.beam.yield_stress = 1e15;
   return input;
 }

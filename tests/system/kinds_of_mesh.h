@@ -9,9 +9,9 @@
 
 namespace subimpact {
 
-enum class Kind { cells, hermite, hinged, timoshenko, spectral };
+enum class Kind { cells, hermite, timoshenko, spectral };
 inline std::ostream& operator<<(std::ostream& out, Kind kind) {
-  constexpr const char* names[] = {"cells", "hermite", "hinged", "timoshenko", "spectral"};
+  constexpr const char* names[] = {"cells", "hermite", "timoshenko", "spectral"};
   return out << names[static_cast<int>(kind)];
 }
 
@@ -32,7 +32,7 @@ inline std::shared_ptr<const BeamMesh> make_mesh(Kind kind, const Beam& beam, do
   if (kind == Kind::cells) return std::make_shared<CellMesh>(beam, position, n, extent);
   if (kind == Kind::timoshenko) return std::make_shared<TimoshenkoMesh>(beam, position, n, extent);
   if (kind == Kind::spectral) return std::make_shared<SpectralMesh>(beam, position, n, extent);
-  return std::make_shared<HermiteMesh>(beam, position, n, extent, kind == Kind::hinged);
+  return std::make_shared<HermiteMesh>(beam, position, n, extent);
 }
 
 }  // namespace subimpact

@@ -42,18 +42,11 @@ enum class CellSpacing {
 /// Whether a scene that is symmetric about mid-span is modelled by one half.
 enum class SymmetryUse { automatic, off };
 
-/// Whether a Hermite mesh has hinges at the points where a yielding beam bends most.
-enum class HingeUse {
-  automatic,  ///< at the strike and at clamped ends, where the beam may yield
-  off
-};
-
 struct ModelOptions {
   MeshKind mesh = MeshKind::cells;
   int segments = 501;  ///< cells
   CellSpacing spacing = CellSpacing::cells;
   int elements = 200;  ///< Hermite elements
-  HingeUse hinges = HingeUse::automatic;
   SectionKind section = SectionKind::exact;
   int layers = 40;
   SymmetryUse symmetry = SymmetryUse::automatic;

@@ -18,7 +18,8 @@ struct Reason {
     indentation, opening_before, opening_after, joined_before, joined_after, joined_within,
     duration, separation_before, separation_after, nearly_opens, nearly_closes,
     // What mesh or steps do not show.
-    heavy_part, near_end, unended_contact, short_contact, short_separation, loose_tolerance,
+    heavy_part, near_end, unended_contact, short_contact, short_separation, yielding_elements,
+    loose_tolerance,
     // Why event times are not within a tolerance, and why no finer mesh is run.
     error_of_times, no_run_beside, fixed_key, work_limit, default_work_limit, finest_mesh, memory,
     failed_run, stopped_search

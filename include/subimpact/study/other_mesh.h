@@ -13,11 +13,11 @@ struct RefinedRun {
 };
 
 /// The order at which event times of a case converge with its mesh: 2 for cells; 4 for Hermite
-/// elements, or 2 if sections may yield (1 without hinges); nothing for a rigid beam.
+/// elements, or 1 if sections may yield; nothing for a rigid beam.
 std::optional<int> mesh_order(const Case& input);
 
-/// The case on a mesh with `factor` times as many cells or elements, as nearly as the mesh allows,
-/// with the same grading; nothing for a rigid beam or if too few would be left. A fixed step above
+/// The case on a mesh with `factor` times as many cells or elements, as nearly as the mesh allows;
+/// nothing for a rigid beam or if too few would be left. A fixed step above
 /// the stability limit of the finer mesh is reduced to 0.9 of that limit.
 std::optional<RefinedRun> on_other_mesh(const Case& input, double factor);
 

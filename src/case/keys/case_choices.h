@@ -94,12 +94,6 @@ inline constexpr Named<SymmetryUse> choices<SymmetryUse>[] = {
 };
 
 template <>
-inline constexpr Named<HingeUse> choices<HingeUse>[] = {
-    {HingeUse::automatic, "auto", "at the strike and at clamped ends, if the beam may yield"},
-    {HingeUse::off, "off", "none: the slope is continuous"},
-};
-
-template <>
 inline constexpr Named<StopRule> choices<StopRule>[] = {
     {StopRule::end_time, "end", "at time.end"},
     {StopRule::no_more_contact, "no-more-contact",

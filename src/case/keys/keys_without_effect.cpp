@@ -84,8 +84,6 @@ constexpr IdleKey idle_keys[] = {
      }},
     {"beam.damping.ratio", "model.mesh", is_rigid},
     {"beam.damping.stiffness", "model.mesh", is_rigid},
-    {"model.hinges", "model.section", has_elastic_sections},
-    {"model.hinges", "beam.yield_stress", never_yields},
     {"model.section", "model.mesh", is_rigid},
     {"model.section", "beam.yield_stress",
      [](const Case& c) { return never_yields(c) && !has_elastic_sections(c); }},
@@ -174,7 +172,7 @@ bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
 OpenChoices open_choices(const GivenKeys& given) {
   OpenChoices open;
   open.size = !has_any(given, {"model.segments", "model.elements"});
-  open.mesh = open.size && !has_any(given, {"model.mesh", "model.spacing", "model.hinges"});
+  open.mesh = open.size && !has_any(given, {"model.mesh", "model.spacing"});
   open.tolerance = !has_any(given, {"solver.rtol", "solver.step", "solver.max_step"});
   open.method =
       open.tolerance && !has_any(given, {"solver.method", "solver.table", "solver.max_order",

@@ -136,6 +136,11 @@ std::optional<Reason> unresolved_contact(const Case& input, const Result& result
   if (!mesh_order(input)) return {};
   const auto& all = result.sub_impacts;
   const SubImpact& here = all[i];
+  const bool has_yielded =
+      result.first_section_yield && result.end_of(here) > *result.first_section_yield;
+  if (has_yielded && input.model.mesh == MeshKind::hermite && !strikes_end(input)) {
+    return Reason{.kind = Reason::Kind::yielding_elements};
+  }
   if (!here.end) {
     const double needed = parts_that_resolve(input, result.used.contact_time);
     if (mesh_count(input) >= needed) return {};

@@ -43,7 +43,8 @@ double shortest_contact_shown(const Case& input);
 
 /// Why a sub-impact is not shown by the mesh, none if it is: its contact, or the separation after
 /// it, is too short; or it lasts to the end, on a mesh with fewer than parts_that_resolve, where
-/// two runs may both have missed its end.
+/// two runs may both have missed its end; or Hermite elements have yielded under the striker, where
+/// meshes agree on contacts that the beam opens (validation/truth/mesh).
 std::optional<Reason> unresolved_contact(const Case& input, const Result& result, std::size_t i);
 
 /// Why the mesh shows no sub-impact rightly, none if it may: what it adds to the mass that the

@@ -92,23 +92,6 @@ TEST(HermiteElements, BringTheFirstFiveSubImpactsAtFourthOrder) {
   five.expect_overall_order_within(3.6, 4.4);
 }
 
-// The opening near 201.5 us lasts 1.8 us.
-TEST(HermiteElements, WithHingesResolveTheYieldingBeamOnAMeshThatServesTheElasticOne) {
-  Case input = hermite_case(SectionKind::exact, 0.25e-3, 50);
-  const Result hinged = simulate(input);
-  EXPECT_EQ(hinged.used.n_unknowns, 102u);
-  ASSERT_EQ(hinged.sub_impacts.size(), 3u);
-  EXPECT_NEAR(end_us(hinged.sub_impacts[0]), yielding_limit_us[0][1], 0.5);
-  EXPECT_NEAR(end_us(hinged.sub_impacts[1]), yielding_limit_us[1][1], 0.5);
-  EXPECT_NEAR(start_us(hinged.sub_impacts[1]), yielding_limit_us[1][0], 1.2);
-  EXPECT_LT(hinged.max_energy_error, 1e-7);
-  EXPECT_LT(hinged.max_momentum_error, 1e-10);
-  // Without a hinge four times as many elements keep the contact closed.
-  input = hermite_case(SectionKind::exact, 0.25e-3, 200);
-  input.model.hinges = HingeUse::off;
-  EXPECT_GT(end_us(simulate(input).sub_impacts.at(0)), 214.0);
-}
-
 // Two meshes that have nothing in common come to the same motion.
 TEST(HermiteElements, AgreeWithFineCellsOnEverySupport) {
   for (const EndSupport end : all_ends) {

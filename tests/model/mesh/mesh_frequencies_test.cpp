@@ -138,9 +138,9 @@ class ElementsOnSupports : public testing::TestWithParam<Support> {
     return beam;
   }
   // As Rayleigh quotients, out of the reach of the decomposition's rounding.
-  auto frequencies(double position, bool hinges = false) const {
-    return [this, position, hinges](std::size_t n) {
-      return HermiteMesh(beam(), position, n, Extent::whole, hinges)
+  auto frequencies(double position) const {
+    return [this, position](std::size_t n) {
+      return HermiteMesh(beam(), position, n, Extent::whole)
           .natural_modes(beam().bending_stiffness())
           .frequencies;
     };
@@ -158,13 +158,6 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(ElementsOnSupports, FrequenciesConvergeAtFourthOrder) {
   constexpr std::size_t sizes[] = {16, 24, 32, 48};
   expect_order_of_frequencies(beam(), 5, sizes, frequencies(0.375), 3.7, 4.3);
-}
-
-// A hinge sees the moment at its node, the sections beside it the linear part of theirs: where the
-// moment is curved an order is lost in the hinge's share of the weights.
-TEST_P(ElementsOnSupports, WithHingesKeepTheThirdOrder) {
-  constexpr std::size_t sizes[] = {16, 32, 64};
-  expect_order_of_frequencies(beam(), 4, sizes, frequencies(0.5, true), 2.7, 4.3);
 }
 
 }  // namespace

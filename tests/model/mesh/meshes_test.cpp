@@ -33,9 +33,7 @@ void on_every_mesh(const Check& check) {
       for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
         const Beam beam = paper_beam(theory, ends);
         on_meshes<CellMesh>(beam, {7, 8, 31}, {0.1, 0.5, 0.77}, true, check);
-        for (const bool hinges : {false, true}) {
-          on_meshes<HermiteMesh>(beam, {4, 5, 12}, {0.2, 0.5, 0.77}, false, check, hinges);
-        }
+        on_meshes<HermiteMesh>(beam, {4, 5, 12}, {0.2, 0.5, 0.77}, false, check);
       }
       const Beam shearing = shearing_beam(ends);
       on_meshes<TimoshenkoMesh>(shearing, {7, 8, 31}, {0.1, 0.5, 0.77}, true, check);
@@ -47,7 +45,7 @@ void on_every_mesh(const Check& check) {
   for (const auto spacing : {CellMesh::Spacing::points, CellMesh::Spacing::whole}) {
     on_meshes<CellMesh>(beam, {5, 11, 101}, {0.0, 0.013, 0.31, 1.0}, true, check, spacing);
   }
-  on_meshes<HermiteMesh>(beam, {6}, {0.0, 1.0}, false, check, true);
+  on_meshes<HermiteMesh>(beam, {6}, {0.0, 1.0}, false, check);
   for (std::size_t n = 9; n < 24; ++n) {
     on_meshes<TimoshenkoMesh>(shearing_beam(), {n}, {0.13}, true, check);
   }
@@ -120,9 +118,7 @@ void expect_half_answers_as_whole(Beam beam, std::size_t n, const Details&... de
 TEST(HalfMeshes, AnswerAForceAtTheirMiddleAsWholeOnesDo) {
   for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
     expect_half_answers_as_whole<CellMesh>(paper_beam(theory), 41);
-    for (const bool hinges : {false, true}) {
-      expect_half_answers_as_whole<HermiteMesh>(paper_beam(theory), 8, hinges);
-    }
+    expect_half_answers_as_whole<HermiteMesh>(paper_beam(theory), 8);
   }
   expect_half_answers_as_whole<TimoshenkoMesh>(shearing_beam(), 41);
   expect_half_answers_as_whole<SpectralMesh>(shearing_beam(), 8);

@@ -167,10 +167,11 @@ TEST(DenseModes, OfAFineMeshMixNoLowModes) {
   }
 }
 
-// A frequency far below the highest is not that of a rigid mode: hinges add ten times higher ones.
-TEST(ACantileverOfManyElementsAndHinges, VibratesInItsLowestMode) {
+// A frequency far below the highest is not that of a rigid mode: a short element beside the strike
+// adds ten times higher ones.
+TEST(ACantileverOfManyElements, VibratesInItsLowestMode) {
   const Beam beam = paper_beam(BeamTheory::euler_bernoulli, {clamped, free_end});
-  const HermiteMesh mesh(beam, 0.44, 560, Extent::whole, true);
+  const HermiteMesh mesh(beam, 4e-4, 560, Extent::whole);
   const NaturalModes modes = mesh.natural_modes(beam.bending_stiffness());
   EXPECT_LT(modes.frequencies.front(), 1e-7 * modes.frequencies.back());
   EXPECT_NEAR(modes.frequencies.front(), flexural_frequencies(beam, 1).front(),

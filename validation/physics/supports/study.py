@@ -117,7 +117,7 @@ def difference(one: reference.Spell, other: reference.Spell) -> float:
 
 
 FINE = ("--set", "model.mesh=hermite", "--set", f"model.elements={reference.N_ELEMENTS}", "--set", "model.section=elastic",
-        "--set", "model.hinges=off", "--set", "output.interval=0", "--error-bars=off", "--body-errors=off")
+        "--set", "output.interval=0", "--error-bars=off", "--body-errors=off")
 
 
 def beside_reference(program: str, name: str, case: dict) -> tuple[str, bool]:

@@ -1,6 +1,5 @@
 // What the mesh costs and what it leaves wrong: cells and Hermite elements on the paper's example,
-// elastic and yielding, elements with and without hinges. Writes convergence.csv,
-// limits.csv and the figure beside this file.
+// elastic and yielding. Writes convergence.csv and the figure beside this file.
 
 #include <fmt/format.h>
 
@@ -10,7 +9,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +25,7 @@ constexpr double us = 1e6;
 constexpr double horizon = 0.84e-3;  // s: sub-impacts 1 to 9 of the elastic beam
 
 // Kinds of meshes side by side.
-enum class Kind { cells, without_hinges, elements };
+enum class Kind { cells, elements };
 
 struct KindName {
   Kind kind;
@@ -35,7 +33,6 @@ struct KindName {
 };
 constexpr KindName kinds[] = {
     {Kind::cells, "cells"},
-    {Kind::without_hinges, "without_hinges"},
     {Kind::elements, "elements"},
 };
 
@@ -59,7 +56,6 @@ Case example(Kind kind, int count, SectionKind section, double end_time) {
   input.scene.striker.velocity = 15.9;
   input.model.mesh = kind == Kind::cells ? MeshKind::cells : MeshKind::hermite;
   (kind == Kind::cells ? input.model.segments : input.model.elements) = count;
-  if (kind == Kind::without_hinges) input.model.hinges = HingeUse::off;
   input.model.section = section;
   input.solver.method = Method::nystrom;
   input.solver.rtol = 1e-9;
@@ -97,12 +93,9 @@ std::vector<Point> converge(SectionKind section, const std::vector<SubImpact>& l
   };
   for (const int n : {251, 501, 1001, 1415, 2001, 2829}) add(Kind::cells, n);
   const bool elastic = section == SectionKind::elastic;
-  for (const Kind kind : {Kind::without_hinges, Kind::elements}) {
-    if (elastic && kind == Kind::without_hinges) continue;  // there are none
-    for (const int n : {70, 100, 140, 200, 280, 400, 566, 800}) {
-      if (elastic && n > 400) break;  // the limit's own error shows
-      add(kind, n);
-    }
+  for (const int n : {70, 100, 140, 200, 280, 400, 566, 800}) {
+    if (elastic && n > 400) break;  // the limit's own error shows
+    add(Kind::elements, n);
   }
   return points;
 }
@@ -155,82 +148,6 @@ void print_needed(const std::vector<Point>& points) {
   }
 }
 
-// --- limits of the yielding example -------------------------------------------------------------
-
-const std::vector<int> limit_cells{2001, 4001, 8001};
-const std::vector<int> limit_elements{400, 800, 1600};
-
-struct Quantity {
-  const char* name;
-  std::optional<double> (*of)(const Result&);
-};
-
-const SubImpact* zone_edge(const Result& result, int zone, bool last) {
-  const SubImpact* found = nullptr;
-  for (const SubImpact& s : result.sub_impacts) {
-    if (s.zone != zone || (found != nullptr && !last)) continue;
-    found = &s;
-  }
-  return found;
-}
-
-const Quantity quantities[] = {
-    {"first section yields", [](const Result& r) { return r.first_section_yield; }},
-    {"contact yields", [](const Result& r) { return r.first_contact_yield; }},
-    {"first separation", [](const Result& r) { return r.sub_impacts.front().end; }},
-    {"zone 1 ends",
-     [](const Result& r) {
-       const SubImpact* s = zone_edge(r, 1, true);
-       return s ? s->end : std::nullopt;
-     }},
-    {"zone 2 begins",
-     [](const Result& r) {
-       const SubImpact* s = zone_edge(r, 2, false);
-       return s ? std::optional(s->start) : std::nullopt;
-     }},
-    {"zone 2 ends",
-     [](const Result& r) {
-       const SubImpact* s = zone_edge(r, 2, true);
-       return s ? s->end : std::nullopt;
-     }},
-};
-
-// Two sequences of meshes that have nothing in common. The limit is the mean of their finest; it is
-// uncertain by twice the largest distance that one of the two finest of either has from it.
-void write_limits(const std::string& directory, const std::vector<Result>& on_cells,
-                  const std::vector<Result>& on_elements) {
-  std::ofstream csv(directory + "/limits.csv");
-  std::string head = "quantity";
-  for (const int n : limit_cells) head += fmt::format(",cells_{}_us", n);
-  for (const int n : limit_elements) head += fmt::format(",elements_{}_us", n);
-  csv << head << ",limit_us,uncertainty_us\n";
-  fmt::print("\nyielding example (section exact), us: cells, elements, limit\n");
-  for (const Quantity& quantity : quantities) {
-    std::string row = quantity.name;
-    std::vector<double> finest;      // of either sequence
-    std::vector<double> two_finest;  // of both
-    for (const auto* runs : {&on_cells, &on_elements}) {
-      for (std::size_t i = 0; i < runs->size(); ++i) {
-        const double t = quantity.of((*runs)[i]).value_or(NAN) * us;
-        row += fmt::format(",{:.4f}", t);
-        if (i + 2 >= runs->size()) two_finest.push_back(t);
-        if (i + 1 == runs->size()) finest.push_back(t);
-      }
-    }
-    const double limit = 0.5 * (finest[0] + finest[1]);
-    double furthest = 0.0;
-    for (const double t : two_finest) furthest = std::max(furthest, std::abs(t - limit));
-    row += fmt::format(",{:.4f},{:.4f}", limit, 2.0 * furthest);
-    csv << row << "\n";
-    fmt::print("{}\n", row);
-  }
-  std::string impacts;
-  for (const Result& run : on_cells) impacts += fmt::format(" {}", run.sub_impacts.size());
-  impacts += ";";
-  for (const Result& run : on_elements) impacts += fmt::format(" {}", run.sub_impacts.size());
-  fmt::print("sub-impacts:{}\n", impacts);
-}
-
 // --- output -------------------------------------------------------------------------------------
 
 void write_points(const std::string& directory, const std::vector<Point>& points) {
@@ -247,15 +164,6 @@ void write_points(const std::string& directory, const std::vector<Point>& points
 
 int main() {
   const std::string directory = SUBIMPACT_MESH_STUDY;
-  const auto run_all = [](Kind kind, const std::vector<int>& counts) {
-    return std::async(std::launch::async, [kind, counts] {
-      std::vector<Result> runs;
-      for (const int n : counts) {
-        runs.push_back(simulate(example(kind, n, SectionKind::exact, 8e-3)));
-      }
-      return runs;
-    });
-  };
   fmt::print(
       "errors of starts and ends before {:.2f} ms, nystrom at rtol 1e-9\n\n"
       "{:8} {:15} {:>6} {:>6} {:>12} {:>12} {:>12} {:>10}\n",
@@ -270,7 +178,4 @@ int main() {
   print_needed(yielding);
   points.insert(points.end(), yielding.begin(), yielding.end());
   write_points(directory, points);
-  auto on_cells = run_all(Kind::cells, limit_cells);
-  auto on_elements = run_all(Kind::elements, limit_elements);
-  write_limits(directory, on_cells.get(), on_elements.get());
 }

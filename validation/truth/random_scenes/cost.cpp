@@ -116,8 +116,7 @@ double highest_frequency(const Case& input) {
   }
   const double a = input.scene.beam.length / input.model.elements;
   const double x = 11.8 * r / a;
-  const bool hinged = may_yield(input) && input.model.hinges == HingeUse::automatic;
-  return (hinged ? 2.0 : 1.0) * 91.7 * c * r / (a * a) / std::sqrt(1.0 + (rotary ? x * x : 0.0));
+  return 91.7 * c * r / (a * a) / std::sqrt(1.0 + (rotary ? x * x : 0.0));
 }
 
 double contact_frequency(const Case& input) {

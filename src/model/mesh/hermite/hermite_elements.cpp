@@ -5,70 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "numerics/bracketed_root.h"
 #include "numerics/dense.h"
-#include "numerics/gauss.h"
 
 namespace subimpact {
-namespace {
 
 using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-
-// Two points and weights at distances x (shares of the element) from a hinge that, with the hinge's
-// own weight at 0, integrate 1, x and x^2.
-struct Pair {
-  double near, far, near_weight, far_weight;
-};
-
-Pair pair_with(double near) {
-  const double weight = 1.0 - hinge_share;
-  const double far = (1.0 / 3.0 - 0.5 * near) / (0.5 - weight * near);
-  const double near_weight = (weight * far - 0.5) / (far - near);
-  return {near, far, near_weight, weight - near_weight};
-}
-
-// The pair that integrates x^(-1/2), too.
-Pair pair_beside_hinge() {
-  const double too_near = 1e-3;  // too much of the peak
-  const double too_far = 0.2;    // too little, as at Gauss' 0.211
-  const auto excess = [](double near) {
-    const Pair pair = pair_with(near);
-    return pair.near_weight / std::sqrt(pair.near) + pair.far_weight / std::sqrt(pair.far) - 2.0;
-  };
-  return pair_with(root_in(excess, too_near, too_far));
-}
-
-}  // namespace
-
-ElementRule gauss_rule() {
-  const double eta = 2.0 * gauss<2>.points[0] - 1.0;
-  return {{eta, -eta}, {0.5, 0.5}, {{1.0, eta}, {1.0, -eta}}};
-}
-
-ElementRule rule_beside_hinges(bool at_start, bool at_end) {
-  ElementRule rule;
-  if (at_start && at_end) {
-    const double weight = 0.5 - hinge_share;
-    const double eta = std::sqrt((1.0 / 6.0 - hinge_share) / weight);
-    rule = {{-eta, eta}, {weight, weight}, {}};
-  } else {
-    static const Pair pair = pair_beside_hinge();
-    const double near = 1.0 - 2.0 * pair.near;
-    const double far = 1.0 - 2.0 * pair.far;
-    if (at_start) {
-      rule = {{-near, -far}, {pair.near_weight, pair.far_weight}, {}};
-    } else {
-      rule = {{far, near}, {pair.far_weight, pair.near_weight}, {}};
-    }
-  }
-  // The condition on the moments, mean = sum w kappa and half = 3 sum w eta kappa, for two kappa.
-  const auto& eta = rule.points;
-  const auto& w = rule.weights;
-  const double apart = eta[1] - eta[0];
-  rule.of_curvature = {{eta[1] / (w[0] * apart), -1.0 / (3.0 * w[0] * apart)},
-                       {-eta[0] / (w[1] * apart), 1.0 / (3.0 * w[1] * apart)}};
-  return rule;
-}
 
 HermiteElement::HermiteElement(double a, double h)
     : length(a),
@@ -77,11 +18,9 @@ HermiteElement::HermiteElement(double a, double h)
       of_displacements(6.0 / (a * a)),
       of_slopes(3.0 / (a * h)) {}
 
-HermiteElement::Coefficients HermiteElement::curvature(
-    const std::array<double, 2>& of_curvature) const {
-  const auto [of_mean, of_half] = of_curvature;
-  return {of_half * of_displacements, -of_mean * mean + of_half * of_slopes,
-          -of_half * of_displacements, of_mean * mean + of_half * of_slopes};
+HermiteElement::Coefficients HermiteElement::curvature(double at) const {
+  return {at * of_displacements, -mean + at * of_slopes, -at * of_displacements,
+          mean + at * of_slopes};
 }
 
 HermiteElement::Coefficients HermiteElement::displacement(double z) const {
@@ -133,23 +72,18 @@ HermiteElement::Coefficients HermiteElement::moment(double mass_per_length, doub
           -share * s * (left / 12.0 + length / 20.0)};
 }
 
-double HermiteElement::highest_frequency_squared(const ElementRule& rule,
-                                                 std::array<double, 2> springs,
-                                                 double bending_stiffness,
+double HermiteElement::highest_frequency_squared(double bending_stiffness,
                                                  const Matrix& mass) const {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(4, 4);
-  stiffness(1, 1) = springs[0];
-  stiffness(3, 3) = springs[1];
-  for (std::size_t g = 0; g < rule.size(); ++g) {
-    const Eigen::Vector4d row(curvature(rule.of_curvature[g]).data());
-    stiffness += bending_stiffness * rule.weights[g] * length * row * row.transpose();
+  for (const double at : eta) {
+    const Eigen::Vector4d row(curvature(at).data());
+    stiffness += bending_stiffness * 0.5 * length * row * row.transpose();
   }
   return largest_eigenvalue(stiffness, Eigen::Map<const Matrix4>(mass[0].data()));
 }
 
-HermiteNodes::HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool is_half,
-                           bool has_hinges)
-    : half(is_half), hinges(has_hinges), ends(beam.ends) {
+HermiteNodes::HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool is_half)
+    : half(is_half), ends(beam.ends) {
   if (n_elements < fewest_elements) {
     throw std::invalid_argument("hermite mesh: at least 4 elements are needed");
   }
@@ -178,13 +112,6 @@ void HermiteNodes::place(double left, double right, std::size_t n_elements) {
   lengths.resize(n_elements, right / static_cast<double>(n_elements - struck));
 }
 
-bool HermiteNodes::is_hinge(std::size_t node) const {
-  if (!hinges) return false;
-  const bool mirror = half && node == n_elements();
-  if (mirror || (node > 0 && node < n_elements())) return node == struck;
-  return ends[node == 0 ? 0 : 1] == EndSupport::clamped;
-}
-
 void HermiteNodes::number_unknowns() {
   std::size_t next = 0;
   for (std::size_t i = 0; i <= n_elements(); ++i) {
@@ -192,16 +119,9 @@ void HermiteNodes::number_unknowns() {
     EndSupport support = EndSupport::free;
     if (i == 0) support = ends[0];
     if (i == n_elements() && !mirror) support = ends[1];
-    Node node{none, none, none};
-    const bool hinge = is_hinge(i);
-    if (hinge && i > 0) node.slope_before = next++;
+    Node& node = nodes.emplace_back(none, none);
     if (support == EndSupport::free) node.displacement = next++;
-    if (hinge) {
-      if (i < n_elements()) node.slope_after = next++;
-    } else if (support != EndSupport::clamped && !mirror) {
-      node.slope_before = node.slope_after = next++;
-    }
-    nodes.push_back(node);
+    if (support != EndSupport::clamped && !mirror) node.slope = next++;
   }
   n_unknowns = next;
 }
@@ -209,7 +129,7 @@ void HermiteNodes::number_unknowns() {
 std::array<std::size_t, 4> HermiteNodes::unknowns_of(std::size_t element) const {
   const Node& left = nodes[element];
   const Node& right = nodes[element + 1];
-  return {left.displacement, left.slope_after, right.displacement, right.slope_before};
+  return {left.displacement, left.slope, right.displacement, right.slope};
 }
 
 std::pair<std::size_t, double> HermiteNodes::element_at(double x) const {

@@ -5,48 +5,51 @@
 #include <utility>
 #include <vector>
 
+#include "numerics/gauss.h"
 #include "subimpact/model/scene.h"
 
 namespace subimpact {
-
-/// The sections of a Hermite element, whose curvature is mean + eta half, eta in [-1, 1]: their
-/// positions, their weights, and the curvature of each.
-struct ElementRule {
-  std::vector<double> points;   ///< eta
-  std::vector<double> weights;  ///< shares of the element's length
-  /// kappa of a section = of_curvature[0] mean + of_curvature[1] half.
-  std::vector<std::array<double, 2>> of_curvature;
-
-  std::size_t size() const { return points.size(); }
-};
-
-/// Two Gauss points, which integrate the elastic stiffness exactly.
-ElementRule gauss_rule();
-
-/// The share of its length that each element next to a hinge gives to the hinge.
-constexpr double hinge_share = 0.05;
-
-/// Two sections of an element with a hinge at its start, its end, or both, which has a section of
-/// its own. With the hinge's share of the weights they integrate any quadratic and (not between two
-/// hinges) x^(-1/2), x the distance from the hinge; and they determine a linear moment exactly, for
-/// any section law: sum w of_curvature M = the means of M and of eta M for every linear M. See
-/// docs/theory.md, "Hermite elements".
-ElementRule rule_beside_hinges(bool at_start, bool at_end);
 
 /// One cubic Hermite element of length a with the unknowns w_0, h t_0, w_1, h t_1, all in m: the
 /// displacements and slopes t = w' at its nodes, with h, the slope unit, a length that a mesh
 /// chooses. The curvature is linear,
 ///
 ///     kappa = (t_1 - t_0)/a + eta [6 (w_0 - w_1)/a^2 + 3 (t_0 + t_1)/a],  eta in [-1, 1].
+///
+/// Its sections are two Gauss points, each for half the length, which integrate the elastic
+/// stiffness exactly.
 struct HermiteElement {
   using Coefficients = std::array<double, 4>;  ///< of the four unknowns
   using Matrix = std::array<Coefficients, 4>;
 
+  static constexpr std::array<double, 2> eta{2.0 * gauss<2>.points[0] - 1.0,
+                                             1.0 - 2.0 * gauss<2>.points[0]};
+
   /// Both in m.
   HermiteElement(double a, double h);
 
-  /// Coefficients (1/m2) of a section's curvature, with its parts as in ElementRule::of_curvature.
-  Coefficients curvature(const std::array<double, 2>& of_curvature) const;
+  /// kappa of the sections, 1/m, from the four unknowns.
+  void curvatures(const double* q, double* kappa) const {
+    const double mean_curvature = mean * (q[3] - q[1]);
+    const double half = of_displacements * (q[0] - q[2]) + of_slopes * (q[1] + q[3]);
+    for (std::size_t g = 0; g < eta.size(); ++g) kappa[g] = mean_curvature + eta[g] * half;
+  }
+  /// The sections' moments times their weights, summed with the coefficients of curvatures(), N.
+  Coefficients of_moments(const double* moments, double copies) const {
+    double sum = 0.0;
+    double first_moment = 0.0;
+    for (std::size_t g = 0; g < eta.size(); ++g) {
+      sum += 0.5 * moments[g];
+      first_moment += 0.5 * eta[g] * moments[g];
+    }
+    const double scale = copies * length;
+    const double couple = scale * mean * sum;
+    const double shear = scale * of_displacements * first_moment;
+    const double slopes = scale * of_slopes * first_moment;
+    return {-shear, couple - slopes, shear, -couple - slopes};
+  }
+  /// Coefficients (1/m2) of a section's curvature.
+  Coefficients curvature(double at) const;
   /// Coefficients of w and w' at z = x/a from 0 to 1.
   Coefficients displacement(double z) const;
   Coefficients slope(double z) const;
@@ -55,9 +58,8 @@ struct HermiteElement {
   /// integral of rho A N, kg, and of rho A N x + J N' with its left node at x = `left`, kg m.
   Coefficients momentum(double mass_per_length) const;
   Coefficients moment(double mass_per_length, double rotary_inertia, double left) const;
-  /// Square of the highest frequency, rad2/s2, of the element alone, with springs on slopes (N/m).
-  double highest_frequency_squared(const ElementRule& rule, std::array<double, 2> springs,
-                                   double bending_stiffness, const Matrix& mass) const;
+  /// Square of the highest frequency, rad2/s2, of the element alone.
+  double highest_frequency_squared(double bending_stiffness, const Matrix& mass) const;
 
   double length;      ///< a, m
   double slope_unit;  ///< h, m
@@ -69,7 +71,7 @@ struct HermiteElement {
 
 /// Where the nodes of a mesh of cubic Hermite elements lie, and which unknowns they have: node by
 /// node the displacement w and the slope, but what supports hold (w at a pinned end, both at a
-/// clamped one, the slope in the middle of a half model). At a hinge: slope before, w, slope after.
+/// clamped one, the slope in the middle of a half model).
 ///
 /// There is a node at the strike; to its left and right the numbers of elements share n as the
 /// strike shares the length. Elements are equal on either side.
@@ -78,27 +80,25 @@ struct HermiteNodes {
   /// In place of the index of an unknown that a support holds.
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  /// Indices of a node's unknowns. The slopes are one but at a hinge.
+  /// Indices of a node's unknowns.
   struct Node {
-    std::size_t displacement, slope_before, slope_after;
+    std::size_t displacement, slope;
   };
 
   /// `position` is the struck point as a fraction of the length, `n_elements` counts those of the
   /// whole beam, of which a `half` has one half. Throws std::invalid_argument for fewer than 4
   /// elements, a strike on a support, a half of an odd number, of unlike ends, struck off mid-span.
-  /// `hinges`: one at the strike, and one at each clamped end.
-  HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool half, bool hinges);
+  HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool half);
 
   std::size_t n_elements() const { return lengths.size(); }  ///< of the part modelled
   std::size_t n_elements_whole() const { return half ? 2 * n_elements() : n_elements(); }
   const Node& struck_node() const { return nodes[struck]; }
-  bool is_hinge(std::size_t node) const;
   /// Unknowns of displacement and slope at the left node, then at the right one.
   std::array<std::size_t, 4> unknowns_of(std::size_t element) const;
   /// The element that contains x (m), and where in it, from 0 to 1.
   std::pair<std::size_t, double> element_at(double x) const;
 
-  bool half, hinges;
+  bool half;
   std::array<EndSupport, 2> ends;
   std::size_t struck = 0;       ///< index of the node under the strike
   std::vector<double> lengths;  ///< of the elements, m
