@@ -61,13 +61,6 @@ TEST(MethodsOption, IsBlamedForAMethodThatDoesNotExist) {
   }
 }
 
-TEST(Explain, NotesKeysWithoutEffectAndWarnsOfDoubtfulUnits) {
-  expect_in(
-      run_anywhere(paper("explain", {"model.elements=100", "beam.youngs_modulus=71960"})).errors,
-      "subimpact: note: model.elements = 100 has no effect with model.mesh = \"cells\"\n",
-      "subimpact: warning: beam.youngs_modulus is 71960 Pa");
-}
-
 TEST(Stability, WritesTheOutcomesOfTheMethodsAskedFor) {
   const TemporaryDirectory directory;
   expect_in(run_in(directory, paper("stability", {"model.segments=101", "time.end=3e-4"},
@@ -84,13 +77,6 @@ TEST(Explain, TellsWhatWillBeModelledAndWritesNothing) {
   expect_in(finished.output, "critical_step_s", "position_tolerance_m", "251", "0.0156337 mm",
             "time");
   EXPECT_TRUE(std::filesystem::is_empty(directory.path));
-}
-
-TEST(Explain, FollowsOverrides) {
-  expect_in(run_anywhere(paper("explain", {"model.segments=101", "model.symmetry=off"},
-                               {"--method", "central-difference"}))
-                .output,
-            "central-difference", "101: unknowns of the beam", "half_model");
 }
 
 TEST(ARunAsAsked, GivesWhatTheProgramGivesNumberForNumber) {
@@ -117,27 +103,6 @@ TEST_F(SensitivityCommand, WritesItsFileAndPrintsTheTable) {
             "at rtol 1e-13 in place of 1e-08");
   expect_in(directory.read("s/sensitivity.csv"), "d_striker.velocity,error_striker.velocity,",
             "\nstart_s,1,0,0,0,0,0,\nend_s,1,0.00021894");
-}
-
-TEST_F(SensitivityCommand, WritesNothingWithoutADirectory) {
-  run_in(directory, of_paper("sensitivity", {"--by", "striker.mass"}));
-  EXPECT_TRUE(std::filesystem::is_empty(directory.path));
-}
-
-TEST_F(SensitivityCommand, ChoosesTheMeshOfACaseThatLeavesItOpen) {
-  directory.write("open.toml", open_case);
-  expect_in(run_in(directory, {"sensitivity", "open.toml", "--set", "beam.yield_stress=inf", "--by",
-                               "striker.velocity"})
-                .output,
-            "spectral");
-}
-
-TEST_F(SensitivityCommand, RefusesKeysByName) {
-  for (const auto& [key, words] :
-       {std::pair("striker.velocty", "\"striker.velocity\"?"),
-        std::pair("striker.gap", "logarithm"), std::pair("striker.position", "symmetric")}) {
-    expect_in(run_anywhere(of_paper("sensitivity", {"--by", key}), 2).errors, words);
-  }
 }
 
 TEST_F(ScatterCommand, WritesItsFilesAndPrintsHowFarTheStrikeCanBePredicted) {

@@ -50,12 +50,6 @@ TEST_F(ARun, WritesItsFilesAndPrintsTheTable) {
   EXPECT_NEAR(summary.at("first_yield").at("section_s").get<double>(), 9.41e-6, 0.05e-6);
 }
 
-TEST_F(ARun, KeepsAHistoryRowEveryInterval) {
-  run_here(directory, {"output.interval=1e-5"});
-  expect_in(directory.read("here/history.csv"), "\n1.0000000000000001e-05,",
-            "\n2.0000000000000002e-05,");
-}
-
 TEST_F(ARun, WithoutADirectoryMakesOneNamedAfterTheCase) {
   directory.write("strike.toml", read_file(SUBIMPACT_PAPER_CASE));
   expect_in(run_in(directory, {"run", "strike.toml", "--set", "time.end=1e-6"}).output,
@@ -289,12 +283,6 @@ TEST_F(RunWithin, ThatTheCaseItselfWishesForNeedsNoOption) {
   EXPECT_EQ(run.at("wish").at("event_times_s"), 2e-6);
 }
 
-TEST_F(RunWithin, AFixedMeshThatCannotMeetTheWishEndsWithStatus0AndTheReason) {
-  const auto run = open_run(directory, {"--within", "1ns", "--set", "model.segments=101"});
-  EXPECT_EQ(run.at("wish_met"), false);
-  EXPECT_EQ(run.at("wish").at("key_to_free"), "model.segments");
-}
-
 // The first touch is the only event time, and a mesh that the contact outlasts is doubted.
 TEST_F(ARun, ThatEndsWithinTheFirstContactStatesNoErrorOfItsEnd) {
   const Finished run =
@@ -368,18 +356,6 @@ TEST(ACantileverStruckAtItsTip, NeedsNoKeyOfTheMesh) {
     run_in(directory, {"run", input, "--out", "here"});
     run_in(directory, {"explain", input});
   }
-}
-
-TEST(ARigidBeamThatTurnsFar, IsBeyondTheModel) {
-  const TemporaryDirectory directory;
-  const std::string input = directory.write(
-      "rigid.toml",
-      "beam = { length = 0.5, width = 0.02, thickness = 0.005, density = 7850, "
-      "youngs_modulus = 210e9 }\n"
-      "striker = { mass = 0.1, nose_radius = 0.01, velocity = 50.0, position = 0.05 }\n"
-      "time = { end = 3e-3 }\nmodel = { mesh = \"rigid\" }\n");
-  expect_in(run_program({"run", input, "--out", "here"}, directory.path).errors,
-            "warning: the beam turns by up to 0.4");
 }
 
 // By bash, for the status of the first command of a pipe. Its reader ends before the program

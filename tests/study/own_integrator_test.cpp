@@ -2,6 +2,7 @@
 
 #include "../../examples/velocity_verlet.h"
 #include "elastic_case.h"
+#include "judgement/coverage.h"
 #include "subimpact/study/compare.h"
 #include "subimpact/study/work_precision.h"
 #include "testing.h"
@@ -37,27 +38,16 @@ TEST(OwnVelocityVerlet, HasOrderTwoOnEventsInAComparisonBesideBuiltInMethods) {
 }
 
 TEST(OwnVelocityVerlet, StatesErrorsThatCoverInNineteenOfTwenty) {
-  int n = 0, n_covered = 0;
+  Coverage coverage;
   for (const double velocity : {10.0, 12.0, 14.0, 15.9, 20.0}) {
     for (const double step : {0.2e-6, 0.1e-6}) {
       Case input = strike(1e-3, step);
       input.scene.striker.velocity = velocity;
       const Result run = simulate_judged(input, cases_beside_in_time(input), 2);
-      const Reference reference = run_reference(input, 1e-11);
-      ASSERT_EQ(run.sub_impacts.size(), reference.sub_impacts.size());
-      const auto count = [&](double time, double there, const std::optional<double>& error) {
-        ++n;
-        if (error && std::abs(time - there) <= *error) ++n_covered;
-      };
-      for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
-        const SubImpact &here = run.sub_impacts[i], &there = reference.sub_impacts[i];
-        if (i > 0) count(here.start, there.start, here.start_error);
-        if (here.end && there.end) count(*here.end, *there.end, here.end_error);
-      }
+      coverage.judge(run, run_reference(input, 1e-11).result);
     }
   }
-  EXPECT_GE(n, 40);
-  EXPECT_GE(n_covered, 0.95 * n);
+  coverage.expect(40, 20.0);
 }
 
 TEST(OwnVelocityVerlet, IsSweptAtFixedStepsOnlyAndDampingIsRefused) {

@@ -56,21 +56,6 @@ TEST(TheOutcomeMap, ShowsExplicitMethodsRefusedOrUnstableBeyondTheirLimitsAndSay
   EXPECT_EQ(rows.at("fixed step exponential").at(64.0).verdict, Verdict::right);
 }
 
-TEST(BackwardDifferentiation, BlowsUpOnABeamAtLooseTolerancesFromOrderThreeOnAndIsReported) {
-  Case input = elastic_case(501, 0.25e-3);
-  input.solver.method = Method::bdf;
-  input.solver.rtol = 1e-4;
-  for (const int order : {2, 3, 4, 5}) {
-    input.solver.max_order = order;
-    const Result result = simulate(input);
-    EXPECT_EQ(result.outcome.kind, order == 2 ? OutcomeKind::completed : OutcomeKind::unstable);
-    if (order == 2) continue;
-    expect_in(result.outcome.message, "grows without bound");
-  }
-  input.solver.rtol = 1e-7;  // whose steps stay below the range of growth
-  EXPECT_TRUE(simulate(input).outcome.completed());
-}
-
 TEST(ImplicitMethods, LoseEnergyAndThenSubImpactsAsTheStepGrows) {
   Case input = elastic_case(501, 0.52e-3);
   EXPECT_EQ(

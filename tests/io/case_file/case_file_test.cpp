@@ -9,27 +9,6 @@
 namespace subimpact {
 namespace {
 
-TEST(CaseFile, GivesEveryValueOfThePapersCase) {
-  const Case read = read_case_file(SUBIMPACT_PAPER_CASE).value;
-  EXPECT_EQ(read.scene.beam.length, 0.7112);
-  EXPECT_EQ(read.scene.beam.width, 0.0163);
-  EXPECT_EQ(read.scene.beam.thickness, 0.0075);
-  EXPECT_EQ(read.scene.beam.density, 2600.0);
-  EXPECT_EQ(read.scene.beam.youngs_modulus, 71.96e9);
-  EXPECT_EQ(read.scene.beam.yield_stress, 150e6);
-  EXPECT_EQ(read.scene.beam.theory, BeamTheory::rayleigh);
-  EXPECT_EQ(read.scene.striker.mass, 0.201);
-  EXPECT_EQ(read.scene.striker.nose_radius, 0.01);
-  EXPECT_EQ(read.scene.striker.velocity, 15.9);
-  EXPECT_EQ(read.scene.striker.position, 0.5);
-  EXPECT_EQ(read.model.segments, 501);
-  EXPECT_EQ(read.model.section, SectionKind::layers);
-  EXPECT_EQ(read.model.layers, 40);
-  EXPECT_EQ(read.end_time, 8e-3);
-  EXPECT_EQ(read.solver.method, Method::erk);
-  EXPECT_EQ(read.output.interval, 1e-6);
-}
-
 // The values of all keys of a case, as texts.
 std::vector<std::string> texts_of(const Case& input) {
   std::vector<std::string> texts;

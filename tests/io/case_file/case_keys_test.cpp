@@ -76,21 +76,6 @@ TEST(CheckOfACase, NamesTheFirstKeyThatIsNotAllowed) {
   EXPECT_EQ(refused_key(input), "striker.mass");
 }
 
-TEST(CheckOfACase, LooksAtSettingsThatMayBeLeftOpenOnlyIfTheyAreNot) {
-  Case input = small_case();
-  input.solver.step = std::nullopt;
-  EXPECT_EQ(refused_key(input), "");
-  input.solver.step = -1e-7;
-  EXPECT_EQ(refused_key(input), "solver.step");
-}
-
-TEST(CheckOfACase, IsMadeBeforeARunAndAnExplanation) {
-  Case input = small_case();
-  input.scene.beam.width = 0.0;
-  EXPECT_THROW(simulate(input), InvalidCase);
-  EXPECT_THROW(resolve(input), InvalidCase);
-}
-
 TEST(NearestName, IsTheOneASlipAwayAndEmptyForAnotherWord) {
   const std::vector<std::string> names = {"length", "width", "thickness"};
   EXPECT_EQ(nearest_name("lenght", names), "length");

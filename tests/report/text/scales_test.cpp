@@ -12,23 +12,6 @@ namespace {
 
 Case paper_case() { return paper_case_with({}); }
 
-TEST(RunSummary, GivesTheSameDigitsOfALargestForceAtEveryScale) {
-  for (int exponent = -9; exponent <= 9; ++exponent) {
-    Result result = sample_result_with_errors(3);
-    const double scale = std::pow(10.0, exponent);
-    result.max_force *= scale;
-    for (SubImpact& s : result.sub_impacts) s.peak_force *= scale;
-    for (auto& [name, total] : result.error_estimate->totals) {
-      if (name == RunTotal::peak_force) total = {8.8e3 * scale, 0.5 * scale};
-    }
-    std::string digits = line_of(summary_of(paper_case(), result), "largest force");
-    digits.resize(digits.find('N'));
-    std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
-    digits.erase(0, digits.find_first_not_of('0'));
-    EXPECT_EQ(digits.substr(0, 5), "87963") << digits << " at 1e" << exponent;
-  }
-}
-
 // The sample, of bodies larger by that factor at the same velocities.
 Result scaled_sample(double scale, std::size_t n_certain) {
   Result result = sample_result_with_errors(n_certain);

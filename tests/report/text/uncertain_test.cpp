@@ -16,33 +16,32 @@ std::string text_of(double value, double error) {
   return with_decimals(value, rounding->decimals) + " +- " + rounding->error;
 }
 
-TEST(Rounding, LeavesTheErrorOneDigitAndTwoIfItStartsWithOne) {
-  EXPECT_EQ(text_of(201.4763, 0.026), "201.48 +- 0.03");
-  EXPECT_EQ(text_of(201.4763, 0.0163), "201.476 +- 0.017");
-  EXPECT_EQ(text_of(201.4763, 0.3), "201.5 +- 0.3");
-  EXPECT_EQ(text_of(201.4763, 0.1), "201.48 +- 0.10");
-  EXPECT_EQ(text_of(201.4763, 2.0), "201 +- 2");
-  EXPECT_EQ(text_of(201.4763, 12.0), "201 +- 12");
-}
-
-TEST(Rounding, CarriesErrorsThatRoundUpToTheNextDigit) {
-  EXPECT_EQ(text_of(201.4763, 0.0097), "201.476 +- 0.010");
-  EXPECT_EQ(text_of(201.4763, 0.0199), "201.48 +- 0.02");
-  EXPECT_EQ(text_of(201.4763, 0.0999), "201.48 +- 0.10");
-  EXPECT_EQ(text_of(201.4763, 9.99), "201 +- 10");
-}
-
-TEST(Rounding, OfTensAndHundredsLeavesNoDigitBelow) {
-  EXPECT_EQ(text_of(8796.3, 25.0), "8800 +- 30");
-  EXPECT_EQ(text_of(8796.3, 234.0), "8800 +- 300");
-  EXPECT_EQ(text_of(8796.3, 4e3), "9000 +- 4000");
-}
-
-TEST(Rounding, OfAnErrorLargerThanTheValueLeavesTheValueZeroOrOneDigit) {
-  EXPECT_EQ(text_of(12.3, 234.0), "0 +- 300");
-  EXPECT_EQ(text_of(-12.3, 234.0), "0 +- 300");
-  EXPECT_EQ(text_of(63.0, 234.0), "100 +- 300");
-  EXPECT_EQ(text_of(0.0, 0.3), "0.0 +- 0.3");
+TEST(Rounding, LeavesTheErrorOneDigitAndTwoIfItStartsWithOneAndTheValueNoDigitBelow) {
+  const std::tuple<double, double, const char*> all[] = {
+      {201.4763, 0.026, "201.48 +- 0.03"},
+      {201.4763, 0.0163, "201.476 +- 0.017"},
+      {201.4763, 0.1, "201.48 +- 0.10"},
+      {201.4763, 2.0, "201 +- 2"},
+      {201.4763, 12.0, "201 +- 12"},
+      // Errors that round up to the next digit.
+      {201.4763, 0.0097, "201.476 +- 0.010"},
+      {201.4763, 0.0199, "201.48 +- 0.02"},
+      {201.4763, 9.99, "201 +- 10"},
+      {8796.3, 234.0, "8800 +- 300"},
+      {8796.3, 4e3, "9000 +- 4000"},
+      // Larger than the value.
+      {12.3, 234.0, "0 +- 300"},
+      {-12.3, 234.0, "0 +- 300"},
+      {63.0, 234.0, "100 +- 300"},
+      {0.0, 0.3, "0.0 +- 0.3"},
+      // Below the last decimal, and none.
+      {201.4763, 1e-12, "201.476300 +- 0.000001"},
+      {201.4763, std::numeric_limits<double>::denorm_min(), "201.476300 +- 0.000001"},
+      {201.4763, 0.0, "201.476300 +- 0"}};
+  for (const auto& [value, error, text] : all) EXPECT_EQ(text_of(value, error), text);
+  for (const double error : {infinity, std::nan(""), -1.0, 1e15, 1e300}) {
+    EXPECT_EQ(text_of(1.0, error), "not known") << error;
+  }
 }
 
 TEST(ANumber, IsNotStatedWithAnErrorThatAsPrintedExceedsIt) {
@@ -56,21 +55,6 @@ TEST(ANumber, IsNotStatedWithAnErrorThatAsPrintedExceedsIt) {
     EXPECT_GE(std::stod(text), std::stod(text.substr(sign + 4))) << text;
   }
   EXPECT_GT(n_stated, 10'000);
-}
-
-TEST(Rounding, StatesATinyErrorAsOneUnitOfTheLastDecimal) {
-  EXPECT_EQ(text_of(201.4763, 1e-12), "201.476300 +- 0.000001");
-  EXPECT_EQ(text_of(201.4763, std::numeric_limits<double>::denorm_min()), "201.476300 +- 0.000001");
-}
-
-TEST(Rounding, OfAnExactNumberKeepsAllDecimals) {
-  EXPECT_EQ(text_of(201.4763, 0.0), "201.476300 +- 0");
-}
-
-TEST(Rounding, RefusesErrorsThatMeanNothing) {
-  for (const double error : {infinity, std::nan(""), -1.0, 1e15, 1e300}) {
-    EXPECT_EQ(text_of(1.0, error), "not known") << error;
-  }
 }
 
 TEST(Rounding, NeverStatesLessThanTheErrorNorMoreThanHalfAsMuchAgain) {
@@ -92,20 +76,13 @@ TEST(Rounding, NeverStatesLessThanTheErrorNorMoreThanHalfAsMuchAgain) {
   }
 }
 
-TEST(WithTwoDigits, HasNoRowOfZeros) {
+TEST(Digits, HaveNoRowOfZerosNoFourthWhereTheyRoundUpAndNoNegativeZero) {
   EXPECT_EQ(with_digits(8796.3, 2), "8800");
   EXPECT_EQ(with_digits(-5.7933e-4, 2), "-0.00058");
   EXPECT_EQ(with_digits(1.93e-33, 2), "1.9e-33");
-}
-
-TEST(WithThreeDigits, HasNoFourthWhereTheyRoundUp) {
   EXPECT_EQ(with_digits(99.99, 3), "100");
   EXPECT_EQ(with_digits(0.09996, 3), "0.100");
   EXPECT_EQ(with_digits(-9996.0, 3), "-10000");
-  EXPECT_EQ(with_digits(99.94, 3), "99.9");
-}
-
-TEST(WithDecimals, HasNoNegativeZero) {
   EXPECT_EQ(with_decimals(-0.001, 2), "0.00");
   EXPECT_EQ(with_decimals(-0.006, 2), "-0.01");
 }

@@ -20,37 +20,28 @@ Case scene(SectionKind section, double end_time) {
   return input;
 }
 
-// Ten scenes unlike each other: speeds, masses, places, thicknesses, sections, methods.
-std::vector<Case> ten_scenes() {
-  std::vector<Case> cases(10, scene(SectionKind::exact, 2.5e-3));
-  cases[0] = scene(SectionKind::elastic, 8e-3);
-  cases[1].end_time = 6.5e-3;
-  cases[2] = scene(SectionKind::layers, 6.3e-3);
-  cases[3].scene.striker.velocity = 8.0;
-  cases[3].end_time = 6e-3;
-  cases[4].scene.striker.velocity = 25.0;
-  cases[4].solver.method = Method::erk;
-  cases[5].scene.striker.position = 0.37;
-  cases[5].model.segments = 300;
-  cases[5].end_time = 4e-3;
-  cases[6] = scene(SectionKind::elastic, 6e-3);
-  cases[6].scene.striker.mass = 0.5;
-  cases[6].solver.method = Method::exponential;
-  cases[7] = scene(SectionKind::elastic, 6e-3);
-  cases[7].scene.beam.thickness = 0.01;
-  cases[7].solver.method = Method::erk;
-  cases[8] = scene(SectionKind::elastic, 4e-3);
-  cases[8].solver.method = Method::central_difference;
-  cases[8].solver.step = 1e-8;
-  cases[9].scene.beam.theory = BeamTheory::euler_bernoulli;
-  cases[9].model.segments = 201;
-  cases[9].end_time = 5e-3;
+// Scenes unlike each other: speeds, masses, places, sections, methods.
+std::vector<Case> scenes() {
+  std::vector<Case> cases(6, scene(SectionKind::exact, 2.5e-3));
+  cases[0] = scene(SectionKind::layers, 4e-3);
+  cases[1].scene.striker.velocity = 25.0;
+  cases[1].solver.method = Method::erk;
+  cases[2].scene.striker.position = 0.37;
+  cases[2].model.segments = 300;
+  cases[3] = scene(SectionKind::elastic, 5e-3);
+  cases[3].scene.striker.mass = 0.5;
+  cases[3].solver.method = Method::exponential;
+  cases[4] = scene(SectionKind::elastic, 3e-3);
+  cases[4].solver.method = Method::central_difference;
+  cases[4].solver.step = 1e-8;
+  cases[5].scene.beam.theory = BeamTheory::euler_bernoulli;
+  cases[5].model.segments = 201;
   return cases;
 }
 
 TEST(StatedErrors, CoverTheTrueOnesWithoutBeingVain) {
   Coverage coverage;
-  for (const Case& input : ten_scenes()) {
+  for (const Case& input : scenes()) {
     Case accurate = input;
     accurate.solver = {};
     const bool elastic = input.model.section == SectionKind::elastic;
@@ -58,16 +49,7 @@ TEST(StatedErrors, CoverTheTrueOnesWithoutBeingVain) {
     accurate.solver.rtol = elastic ? 1e-12 : 1e-11;
     coverage.judge(judged_in_time(input), simulate(accurate));
   }
-  coverage.expect(300, 20.0);
-}
-
-TEST(CasesBesideInTime, DifferInStepOrToleranceAlone) {
-  Case input = scene(SectionKind::elastic, 1e-4);
-  EXPECT_DOUBLE_EQ(cases_beside_in_time(input).at(0).input.solver.rtol, 1e-6);
-  EXPECT_EQ(cases_beside_in_time(input).at(0).input.model.segments, input.model.segments);
-  input.solver.method = Method::central_difference;
-  EXPECT_LT(cases_beside_in_time(input).at(0).input.solver.step.value(),
-            0.71 * resolve(input).settings().step.value());
+  coverage.expect(160, 20.0);
 }
 
 TEST(CoarseCentralDifferences, NameTheFirstSubImpactTheyAreNotCertainOf) {
@@ -94,16 +76,6 @@ NearMiss nearest_to(double time, NearMissKind kind, const Result& result) {
     if (here.kind == kind && std::abs(here.time - time) < std::abs(best.time - time)) best = here;
   }
   return best;
-}
-
-TEST(NearMissesOfThePaper, On501CellsTheContactStaysSome21NanometresFromOpeningAt203us) {
-  // The paper's scheme, but for the update of its striker.
-  Case input = paper_case(Method::central_difference, 501);
-  input.model.section = SectionKind::layers;
-  input.solver.step = 1e-7;
-  const NearMiss graze = nearest_to(203.2e-6, NearMissKind::opening, simulate(input));
-  EXPECT_NEAR(graze.time, 203.2e-6, 0.1e-6);
-  EXPECT_NEAR(graze.margin, 0.021e-6, 0.002e-6);
 }
 
 TEST(NearMissesOfThePaper, AreTheSameByMethodsWithAndWithoutLongSteps) {
@@ -189,27 +161,6 @@ TEST(MeshErrorsOfFineCellsWithFreeEnds, CoverTheTrueOnesThoughTwoMeshesNearlyAgr
     EXPECT_LT(error, stated) << segments;
     EXPECT_LT(stated, 20.0 * error) << segments;
   }
-}
-
-TEST(OtherMeshesAndEnds, HaveNoFirstOrderPart) {
-  Case input = thick_case(501);
-  EXPECT_GT(free_end_error(input, 1e-5, 1e-3), 0.0);
-  Case held = input;
-  held.scene.beam.ends = {pinned, clamped};
-  EXPECT_EQ(free_end_error(held, 1e-5, 1e-3), 0.0);
-  Case half_free = held;
-  half_free.scene.beam.ends[0] = free_end;
-  // After many reflections half of two free ends'.
-  EXPECT_NEAR(free_end_error(half_free, 1e-5, 1.0), 0.5 * free_end_error(input, 1e-5, 1.0),
-              0.01 * free_end_error(input, 1e-5, 1.0));
-  // At first one reflection, whether the other end is free or not.
-  EXPECT_DOUBLE_EQ(free_end_error(half_free, 1e-5, 1e-4), free_end_error(input, 1e-5, 1e-4));
-  Case slender = input;
-  slender.scene.beam.theory = BeamTheory::euler_bernoulli;
-  EXPECT_EQ(free_end_error(slender, 1e-5, 1e-3), 0.0);
-  Case elements = input;
-  elements.model.mesh = MeshKind::hermite;
-  EXPECT_EQ(free_end_error(elements, 1e-5, 1e-3), 0.0);
 }
 
 // A clamped beam with a force on it: on coarse meshes the largest moment is at the clamp, on fine

@@ -216,14 +216,6 @@ TEST(AJudgement, OfRealRunsIsOneAccount) {
   }
 }
 
-TEST(AJudgement, EndsAZoneWithTheErrorOfItsLastSubImpact) {
-  const Result run = judged(contacts(3), contacts(3, 0.5 * us));
-  const SubImpact& last = run.sub_impacts.back();
-  ASSERT_TRUE(*last.certain);
-  ASSERT_GT(last.end_error.value(), 0.0);
-  EXPECT_EQ(run.error_estimate->zones.back().end.error, last.end_error);
-}
-
 // Four contacts, the second of which is split in two.
 Result split_contacts() {
   Result result = contacts(4);

@@ -106,13 +106,6 @@ TEST(StatedErrorsOfACantileverStruckAtItsEnd, CoverTheTrueOnesWithoutBeingVain) 
   coverage.expect(30, 16.0);
 }
 
-TEST(AMeshTooCoarse, NamesTheFirstSubImpactItIsNotCertainOf) {
-  // 501 cells keep the first contact closed, which 1003 split in two.
-  const Result result = judged(scene(SectionKind::exact, 0.3e-3, 501));
-  EXPECT_EQ(result.error_estimate->first_unresolved, 0u);
-  EXPECT_TRUE(result.error_estimate->reason);
-}
-
 TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
   Case input = scene(SectionKind::elastic, 1e-4, 501);
   EXPECT_EQ(mesh_count(on_other_mesh(input, 2.0)->input), 1003);
@@ -254,18 +247,6 @@ TEST(AStrikeThatNoCoarserMeshTakes, IsNotCertainThoughRunsAtOtherTolerancesAgree
   const Result result = simulate_judged(input, cases_beside(input), 2);
   EXPECT_EQ(result.n_certain(), std::size_t{0});
   expect_in(words_of(result.error_estimate->reason), "of the mesh");
-}
-
-TEST(SubImpacts, AreNotAllCertainWhereTheRunComparedWithHasMore) {
-  Result result;
-  result.sub_impacts.resize(2);
-  for (SubImpact& s : result.sub_impacts) s.certain = true;
-  EXPECT_FALSE(result.all_certain());  // without an error estimate
-  result.error_estimate = ErrorEstimate{};
-  EXPECT_TRUE(result.all_certain());
-  result.error_estimate->first_unresolved = 2;
-  EXPECT_EQ(result.n_certain(), std::size_t{2});
-  EXPECT_FALSE(result.all_certain());
 }
 
 }  // namespace

@@ -68,17 +68,6 @@ TEST(BodyErrors, OfStretchingAreOfTheSizeOfTheTensionOverTheBucklingLoad) {
             4.0 * half * half * std::abs(result.striker_velocity));
 }
 
-TEST(BodyErrors, AreThoseOfMeshesWhoseRunsAreAffordableWithDampingToo) {
-  Case input = elastic_case(0.6e-3);
-  input.scene.beam.damping.stiffness = 1e-9;
-  const auto cells = [&] { return affordable_cells(input, input.end_time, 801, 1e6); };
-  const auto work = [&](int n) {
-    const Case coarse = coarse_case(input, n, input.end_time);
-    return counted_work(coarse, simulate(coarse));
-  };
-  EXPECT_LT(work(cells()), 8e6);
-}
-
 // Spectral elements have no modes in closed form between unlike ends.
 TEST(BodyErrors, DecomposeNoLargeMatrixForShear) {
   Case input = elastic_case(0.6e-3, 501, Method::exponential);

@@ -31,6 +31,50 @@ TEST(SceneChoice, OfThePublishedStrikeIsShearAndALineContactByDepth) {
   EXPECT_NO_THROW(check(input));
 }
 
+struct Chosen {
+  const char* scene;
+  std::optional<NoseShape> nose;
+  CrossSection section;
+  MeshKind mesh;
+  ContactKind law;
+  IndentationFrom from;
+  const char* words;
+};
+
+TEST(SceneChoice, OfALawFollowsFromNoseSectionAndWhetherTheBeamBends) {
+  using enum NoseShape;
+  const CrossSection plain{}, box{SectionShape::box, 0.0075, 0.0163, {}, 1e-3},
+      bar{SectionShape::circle, {}, {}, 0.03}, tube{SectionShape::tube, {}, {}, 0.03, 0.003};
+  constexpr auto half_space = IndentationFrom::half_space, mid_plane = IndentationFrom::mid_plane;
+  constexpr auto cells = MeshKind::cells, rigid = MeshKind::rigid;
+  constexpr auto as_sphere = ContactKind::sphere;
+  for (const Chosen& row :
+       {Chosen{"a ball", sphere, plain, cells, as_sphere, mid_plane, ""},
+        Chosen{"a ball on a rigid body", sphere, plain, rigid, as_sphere, half_space,
+               "a body that does not bend"},
+        Chosen{"a hollow section", {}, box, cells, as_sphere, half_space, "bending walls"},
+        Chosen{"a bar", {}, bar, cells, as_sphere, half_space, ""},
+        Chosen{"a ball on a bar", sphere, bar, cells, as_sphere, half_space, ""},
+        Chosen{"a cylinder on a bar", cylinder, bar, cells, as_sphere, half_space, ""},
+        Chosen{"a cylinder on a tube", cylinder, tube, cells, as_sphere, half_space, ""}}) {
+    SCOPED_TRACE(row.scene);
+    Case input = yielding_case();
+    input.scene.striker.nose = row.nose;
+    input.model.mesh = row.mesh;
+    if (row.section.wall || row.section.diameter) {
+      input.scene.beam.section = row.section;
+      input.scene.beam.thickness = input.scene.beam.width = 0.0;
+    }
+    choose_scene(input, {});
+    EXPECT_EQ(input.scene.contact.kind, row.law);
+    EXPECT_EQ(input.scene.contact.indentation, row.from);
+    EXPECT_TRUE(input.scene.contact.pressure_by_depth);
+    EXPECT_EQ(input.scene.beam.shears(), row.mesh == cells);
+    expect_in(input.model_choice, row.words);
+    EXPECT_NO_THROW(check(input));
+  }
+}
+
 TEST(SceneChoice, LeavesGivenKeysAlone) {
   Case input = yielding_case();
   const Case before = input;
@@ -51,22 +95,6 @@ TEST(SceneChoice, OfANoseWithHalfOfItsModuliNamesTheOtherHalf) {
     EXPECT_EQ(refused.key, "contact.striker_modulus");
     expect_in(refused.what(), "only where both", "contact.striker_poisson");
   }
-}
-
-TEST(SceneChoice, OfABallIsASphereFromTheMidPlaneWhereTheBeamBends) {
-  Case input = yielding_case();
-  input.scene.striker.nose = NoseShape::sphere;
-  Case rigid = input;
-  choose_scene(input, {});
-  EXPECT_EQ(input.scene.contact.kind, ContactKind::sphere);
-  EXPECT_EQ(input.scene.contact.indentation, IndentationFrom::mid_plane);
-  EXPECT_TRUE(input.scene.contact.pressure_by_depth);
-  rigid.model.mesh = MeshKind::rigid;
-  choose_scene(rigid, {});
-  EXPECT_EQ(rigid.scene.contact.indentation, IndentationFrom::half_space);
-  EXPECT_TRUE(rigid.scene.contact.pressure_by_depth);
-  EXPECT_FALSE(rigid.scene.beam.shears());
-  expect_in(rigid.model_choice, "a body that does not bend");
 }
 
 // A steel ball of 1 kg on a plane of S235 at 1 m/s; all its energy in a dent under 2.8 Y (Tabor):
@@ -135,39 +163,6 @@ TEST(SceneChoice, OnAPlaneIsThatOnAVeryHeavyBlock) {
   const double change = on_block.max_force / on_plane.max_force - 1.0;
   EXPECT_LT(change, 0.0);  // the energy of the reduced mass m M/(m + M)
   EXPECT_NEAR(change, 0.0, 1.0 / mass);
-}
-
-TEST(SceneChoice, OnAHollowSectionTakesABallOnTheHalfSpaceAndSaysWhatThatLacks) {
-  Case input = yielding_case();
-  Beam& beam = input.scene.beam;
-  beam.section = {SectionShape::box, beam.thickness, beam.width, {}, 1e-3};
-  beam.thickness = beam.width = 0.0;
-  choose_scene(input, {});
-  EXPECT_EQ(input.scene.contact.kind, ContactKind::sphere);
-  EXPECT_EQ(input.scene.contact.indentation, IndentationFrom::half_space);
-  EXPECT_TRUE(input.scene.contact.pressure_by_depth);
-  expect_in(input.model_choice, "bending walls");
-  EXPECT_NO_THROW(check(input));
-}
-
-TEST(SceneChoice, OnARoundBeamIsABallByDepthWhateverTheNose) {
-  for (const bool is_tube : {false, true}) {
-    Case input = yielding_case();
-    Beam& beam = input.scene.beam;
-    beam.section = {is_tube ? SectionShape::tube : SectionShape::circle, {}, {}, 0.03};
-    if (is_tube) beam.section.wall = 0.003;
-    beam.thickness = beam.width = 0.0;
-    for (const auto nose : {std::optional<NoseShape>(), std::optional(NoseShape::sphere),
-                            std::optional(NoseShape::cylinder)}) {
-      Case of_nose = input;
-      of_nose.scene.striker.nose = nose;
-      choose_scene(of_nose, {});
-      EXPECT_EQ(of_nose.scene.contact.kind, ContactKind::sphere);
-      EXPECT_EQ(of_nose.scene.contact.indentation, IndentationFrom::half_space);
-      EXPECT_TRUE(of_nose.scene.contact.pressure_by_depth);
-      EXPECT_NO_THROW(check(of_nose));
-    }
-  }
 }
 
 // As a case with --set model.elements = 40 and nothing else is read.

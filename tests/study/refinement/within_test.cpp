@@ -46,14 +46,6 @@ TEST(AChoice, IsModesWhereTheBeamIsElasticAndCentralDifferencesWhereItYields) {
   EXPECT_EQ(yielding.input.solver.method, Method::central_difference);
 }
 
-TEST(AChoice, IsCellsWhereAClampedEndMayYield) {
-  Case input = paper_run(SectionKind::exact, 1e-3);
-  input.scene.beam.ends = {EndSupport::clamped, EndSupport::free};
-  const ChosenModel chosen = choose_model(input, {}, true);
-  EXPECT_EQ(chosen.input.model.mesh, MeshKind::cells);
-  EXPECT_EQ(chosen.input.solver.method, Method::central_difference);
-}
-
 // Steps of central differences would be those of the contact, for the whole run.
 TEST(AChoice, TakesAMethodWithStepsOfItsOwnWhereContactsAreFarShorterThanPeriodsOfTheMesh) {
   Case input = paper_run(SectionKind::exact, 1e-4);
@@ -71,20 +63,6 @@ TEST(AChoice, TakesAMethodWithStepsOfItsOwnWhereContactsAreFarShorterThanPeriods
   EXPECT_EQ(choose_model(input, {}, true).input.solver.method, Method::central_difference);
 }
 
-TEST(AnEvaluation, CostsMoreWithDampingOnARoundSectionAndByAMethodThatKeepsAnError) {
-  Case input = paper_run(SectionKind::exact, 1e-3, 501, Method::central_difference);
-  EXPECT_EQ(evaluation_cost(input), 1.0);
-  input.scene.beam.section.shape = SectionShape::circle;
-  input.scene.beam.section.diameter = 0.01;
-  EXPECT_EQ(evaluation_cost(input), 2.0);
-  input.solver.method = Method::erk;
-  EXPECT_EQ(evaluation_cost(input), 4.0);
-  input.scene.beam.damping.stiffness = 1e-6;
-  EXPECT_EQ(evaluation_cost(input), 8.0);
-  input.model.section = SectionKind::elastic;  // which has no history to follow
-  EXPECT_EQ(evaluation_cost(input), 4.0);
-}
-
 // A soft tap: no section yields, and the search would go over to natural modes.
 TEST(ASearch, StaysOnCellsWhereContactBesideModesWouldTakeTooLong) {
   Case input = wishing(1e-4, SectionKind::exact, 3e-4);
@@ -94,11 +72,6 @@ TEST(ASearch, StaysOnCellsWhereContactBesideModesWouldTakeTooLong) {
   const WithinRun run = simulate_within(input, {});
   EXPECT_EQ(run.input.model.mesh, MeshKind::cells);
   EXPECT_TRUE(run.result.tolerance->met);
-}
-
-TEST(AChoice, SaysThatContactIsIntegratedWhereSectionsMightYield) {
-  expect_in(choose_model(paper_run(SectionKind::exact, 1e-3), {}, false).reason, "nystrom");
-  expect_not_in(choose_model(paper_run(SectionKind::elastic, 1e-3), {}, false).reason, "nystrom");
 }
 
 TEST(AChoice, LeavesWhatTheCaseFixes) {
@@ -389,14 +362,6 @@ TEST(ASearch, ThatIsStoppedReturnsTheLastMeshThatWasFinished) {
   EXPECT_EQ(run.result.outcome.kind, OutcomeKind::stopped);
   EXPECT_TRUE(run.result.n_certain().has_value());
   EXPECT_NEAR(run.result.outcome.time, 0.5e-3, 1e-9);
-}
-
-TEST(EventErrors, CallAContactStillOpenWrongWhereThatOfTheReferenceHasEnded) {
-  SubImpact ended;
-  ended.end = 1e-4;
-  SubImpact open;
-  const EventErrors errors = event_errors({open}, {ended});
-  EXPECT_FALSE(errors.all_correspond());
 }
 
 }  // namespace
