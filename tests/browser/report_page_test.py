@@ -1,11 +1,9 @@
 """The page of a run as a reader meets it: report_page_test.py PROGRAM CASE [CLASS]..."""
 
-import json
-import re
 import time
 
 import browser
-from page_test_case import COPY, COUNT, CONTRAST, NAMELESS, PageTestCase, main
+from page_test_case import COUNT, CONTRAST, NAMELESS, PageTestCase, main
 
 
 class ReportPage(PageTestCase):
@@ -273,39 +271,6 @@ class ReportPage(PageTestCase):
         for name in ("events.csv", "history.csv"):
             self.assertEqual((self.program.directory / "again" / name).read_text(),
                              (self.program.directory / "strike" / name).read_text(), name)
-
-
-class LongReport(PageTestCase):
-    """20,000 rows and 400 shapes; elastic, so that energies follow from moments."""
-
-    @classmethod
-    def make(cls):
-        directory = cls.program.run("long", "output.interval=4e-7", "output.shapes=2e-5", "output.shape_points=301",
-                                    "model.section=elastic")
-        cls.program("report", "long")
-        return directory / "report.html"
-
-    def test_it_stays_small_and_paints_soon(self):
-        self.assertGreaterEqual(self.js("return page.strike.times.length"), 20000)
-        self.assertGreaterEqual(self.js("return page.strike.shapes.times.length"), 400)
-        size = self.page.stat().st_size
-        paint = self.js("return performance.getEntriesByType('paint')[0].startTime")
-        print(f"{size / 1e6:.2f} MB, first paint after {paint:.0f} ms")
-        self.assertLess(size, 5e6)
-        self.assertLess(paint, 1000)
-
-    def test_elastic_energy_is_the_integral_of_the_moments(self):
-        bending_stiffness = 71.96e9 * 0.0163 * 0.0075**3 / 12
-        most = max(float(row["U_e_J"]) for row in self.program.table("long", "history.csv"))
-        pairs = self.js("""
-            const strike = page.strike;
-            return Array.from(strike.shapes.times).filter((t) => t > 0).map((time) => {
-              const {moment} = strike.shapeAt(time);
-              return [strike.mean(moment.map((m) => m * m)) * strike.length / (2 * arguments[0]), strike.at('U_e_J', time)];
-            });""", bending_stiffness)
-        worst = max(abs(integral - energy) for integral, energy in pairs)
-        print(f"largest difference of energies: {worst / most:.1e} of the largest")
-        self.assertLess(worst, 5e-3 * most)
 
 
 class PageWithoutCharts(PageTestCase):

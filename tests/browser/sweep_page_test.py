@@ -1,6 +1,5 @@
 """The page of a sweep: sweep_page_test.py PROGRAM CASE"""
 
-import subprocess
 
 from page_test_case import NAMELESS, PageTestCase, main
 
@@ -72,22 +71,6 @@ class SweepPage(PageTestCase):
             self.assert_fits(width)
         self.assertEqual(self.js(NAMELESS), [])
         self.assertGreater(self.n_printed_pages(), 0)
-
-    def test_a_sweep_beside_a_run_is_refused_and_damage_is_named(self):
-        done = subprocess.run([self.program.path, "report", self.NAME, "one", "--out", "both"], cwd=self.program.directory,
-                              capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("a sweep, whose page shows all of its runs, is given alone", done.stderr)
-        broken = self.program.directory / "broken"
-        broken.mkdir()
-        (broken / "runs.csv").write_text("run,outcome\n0\n")
-        (broken / "sub_impacts.csv").write_text("")
-        done = subprocess.run([self.program.path, "report", "broken"], cwd=self.program.directory, capture_output=True,
-                              text=True, check=False)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("runs.csv:2: has 1 cells", done.stderr)
-        self.assertFalse((broken / "sweep.html").exists())
-
 
 if __name__ == "__main__":
     main()

@@ -161,17 +161,6 @@ TEST(ASampledPeak, BoundsTheTopOfAParabolaBetweenItsInstants) {
   }
 }
 
-TEST(ALargestMoment, LiesWithinItsErrorOfThatAtTenTimesAsManyInstants) {
-  Case input = paper_case(SectionKind::elastic, 2e-3, 101, Method::central_difference);
-  input.output.interval.reset();
-  const Result coarse = simulate(input);
-  input.output.interval = 1e-7;
-  const Result fine = simulate(input);
-  EXPECT_GT(coarse.peaks.moment.sampling_error(), 0.0);
-  EXPECT_LE(fine.peaks.moment.largest - coarse.peaks.moment.largest,
-            coarse.peaks.moment.sampling_error());
-}
-
 Case case_in_modes() {
   Case input = paper_case(SectionKind::elastic, 0.5e-3, 501, Method::exponential);
   input.scene.contact = {ContactKind::linear, 2e6, {}, {}, {}};

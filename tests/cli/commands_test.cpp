@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "environment.h"
 #include "io/records/run_tables.h"
 #include "process.h"
 #include "run_files.h"
@@ -161,6 +162,14 @@ TEST(Advice, KeepsTheOptionsOfTheRunAndWritesBesideItsDirectory) {
                                                "--out", "res/", "--opening", "2um"});
   expect_in(unwrapped(finished.output),
             "run case.toml --opening 2um --set time.end=0.0006 --out res-longer");
+}
+
+TEST(ThePython, OfTheProgramFindsItsPackageAndTakesAllArguments) {
+  const char* look = "import importlib.util as u; print(u.find_spec('subimpact').origin)";
+  expect_in(run_anywhere({"python", "-c", look}, 0).output, "python/subimpact/__init__.py");
+  run_anywhere({"python", "-c", "import sys; sys.exit(len(sys.argv))", "--help", "-x"}, 3);
+  const Environment nowhere("SUBIMPACT_PYTHON_EXECUTABLE", "/nowhere/python3");
+  expect_in(run_anywhere({"python"}, 2).errors, "/nowhere/python3: cannot be run");
 }
 
 }  // namespace

@@ -51,25 +51,6 @@ TEST(ATerminal, GetsNoControlCharactersOfTitlesKeysAndPaths) {
             "\\x1b[2J\\x07\\xc2\\x9b\\x7f h\u00e4rter ");
 }
 
-TEST(ATitle, IsOnlyTextOnThePageOfARun) {
-  const TemporaryDirectory directory;
-  const std::string text = read_file(SUBIMPACT_PAPER_CASE);
-  directory.write("case.toml",
-                  replaced(text, "title = \"",
-                           "title = \"<script>`touch pwned`</script> $(touch pwned) @{/=99 x} "
-                           "\\\"a' & \\u001b[2J"));
-  run_in(directory, {"run", "case.toml", "--out", "run", "--quiet", "--set", "time.end=1e-5",
-                     "--set", "model.segments=21"});
-  run_in(directory, {"report", "run"});
-  const std::string page = directory.read("run/report.html");
-  expect_not_in(page, "<script>`");
-  expect_not_in(page, "\x1b");
-  expect_in(page,
-            "&lt;script&gt;`touch pwned`&lt;/script&gt; $(touch pwned) @{/=99 x} &quot;a&#x27; "
-            "&amp; \\x1b[2J");
-  EXPECT_FALSE(directory.has("pwned") || directory.has("run/pwned"));
-}
-
 // --- sizes --------------------------------------------------------------------------------------
 
 TEST_F(ACaseFile, NestedTooDeeplyOrTooLargeIsRefused) {

@@ -74,12 +74,6 @@ TEST(TheExponentialMethod, MovesFreeBodiesAndOscillatorsExactly) {
   EXPECT_NEAR(y[3], 1.0, 1e-15);
 }
 
-TEST(TheExponentialMethod, HasNoStepLimitFromFrequencies) {
-  // A step of 300 radians of the oscillator under a force it cannot follow stays bounded.
-  const State y = integrate_pair({1e-4, 100.0, {}}, 1e5, true);
-  EXPECT_LT(std::abs(y[0]), 0.2);
-}
-
 TEST(AStateInsideAStep, AgreesWithItsEnds) {
   Exponential method(std::make_unique<Pair>(), {1e-8, {}, {}});
   method.restart(0.0, {0.1, -0.2, 0.3, 1.0});
@@ -200,7 +194,7 @@ constexpr double oscillators[][2] = {{3.0, 0.0},   {3.0, 0.03},  {0.2, 0.002}, {
                                      {2.0, 9.0},   {0.3, 6.0},   {0.0, 0.01},  {0.0, 0.8},
                                      {0.0, 4.0},   {0.01, 40.0}, {20.0, 0.2},  {0.0, 0.0}};
 
-TEST(ADampedOscillator, MovesAsItsEquationSaysUnderAPolynomialForce) {
+TEST(ADampedOscillator, MovesAsItsEquationSaysAndHasTheIntegralOfItsSquaredVelocity) {
   const Powers f{0.7, -0.4, 0.9, -1.3};
   const Motion start{0.3, -0.8, 0.0};
   for (const auto& [omega, delta] : oscillators) {
@@ -215,18 +209,9 @@ TEST(ADampedOscillator, MovesAsItsEquationSaysUnderAPolynomialForce) {
       }
       EXPECT_NEAR(q, expected.q, 1e-11) << omega << ' ' << delta << ' ' << t;
       EXPECT_NEAR(v, expected.v, 1e-11 * std::max(1.0, omega)) << omega << ' ' << delta << ' ' << t;
-    }
-  }
-}
-
-TEST(ADampedOscillator, HasTheIntegralOfItsSquaredVelocity) {
-  const Powers f{0.7, -0.4, 0.9, -1.3};
-  const Motion start{0.3, -0.8, 0.0};
-  for (const auto& [omega, delta] : oscillators) {
-    for (const double t : {0.01, 0.6, 1.0, 2.5}) {
-      const double expected = reference(omega, delta, f, start, t).squares;
-      const double here = integral_of_squared_velocity(omega, delta, start.q, start.v, f, t);
-      EXPECT_NEAR(here, expected, 1e-10 * expected) << omega << ' ' << delta << ' ' << t;
+      const double squares = integral_of_squared_velocity(omega, delta, start.q, start.v, f, t);
+      EXPECT_NEAR(squares, expected.squares, 1e-10 * expected.squares)
+          << omega << ' ' << delta << ' ' << t;
     }
   }
 }

@@ -47,23 +47,6 @@ TEST_P(EveryMethod, LookingInsideAStepDoesNotDisturbTheNextOne) {
   EXPECT_EQ(undisturbed->state(), looked_into->state());
 }
 
-TEST_P(EveryMethod, StepsJoinUp) {
-  CurvedMotion motion;
-  const auto integrator = GetParam().with_step(motion, 0.02);
-  integrator->restart(0.5, motion.exact(0.5));
-  EXPECT_EQ(integrator->start_time(), 0.5);
-  EXPECT_EQ(integrator->time(), 0.5);
-  EXPECT_EQ(integrator->state(), motion.exact(0.5));
-  for (int i = 0; i < 10; ++i) {
-    const double time = integrator->time();
-    const State state = integrator->state();
-    integrator->step();
-    EXPECT_EQ(integrator->start_time(), time);
-    EXPECT_EQ(integrator->start_state(), state);
-    EXPECT_NEAR(integrator->time() - time, 0.02, 1e-15);
-  }
-}
-
 TEST_P(EveryMethod, RestartForgetsWhatWasBefore) {
   CurvedMotion motion;
   const auto fresh = GetParam().with_step(motion, 0.02);
@@ -78,19 +61,6 @@ TEST_P(EveryMethod, RestartForgetsWhatWasBefore) {
   }
   EXPECT_EQ(used->state(), fresh->state());
   EXPECT_EQ(used->time(), fresh->time());
-}
-
-TEST_P(EveryMethod, TakesTheAccelerationAnewAfterARestart) {
-  double sign = 1.0;
-  AnyMotion motion(1, [&](std::span<const double>, std::span<double> a) { a[0] = sign; });
-  const auto integrator = GetParam().with_step(motion, 0.5);
-  integrator->restart(0.0, {0.0, 0.0});
-  integrator->step();
-  EXPECT_NEAR(integrator->state()[1], 0.5, 1e-13);
-  sign = -1.0;
-  integrator->restart(0.5, integrator->state());
-  integrator->step();
-  EXPECT_NEAR(integrator->state()[1], 0.0, 1e-13);
 }
 
 TEST_P(EveryMethod, CostsTheEvaluationsItsTableClaims) {

@@ -35,11 +35,6 @@ INSTANTIATE_TEST_SUITE_P(OneStep, RootFinding, testing::ValuesIn(one_step_method
 INSTANTIATE_TEST_SUITE_P(Multistep, RootFinding, testing::ValuesIn(multistep_methods),
                          NamedAsPrinted{});
 
-// Only these evaluate the motion for their dense output.
-class DenseOutput : public testing::TestWithParam<Finder> {};
-INSTANTIATE_TEST_SUITE_P(OneStep, DenseOutput, testing::ValuesIn(one_step_methods),
-                         NamedAsPrinted{});
-
 using Evaluate = std::function<std::vector<EventValue>(std::span<const double>)>;
 
 // Event functions of a test, which may exchange them before a restart.
@@ -199,25 +194,6 @@ TEST_P(RootFinding, FindsAtTheRestartWhatHasRisenThere) {
   integrator->step();
   EXPECT_FALSE(integrator->root().has_value());
   EXPECT_GT(integrator->time(), 4.0);
-}
-
-TEST_P(DenseOutput, CostsNothingMoreAfterARoot) {
-  Oscillators system = oscillator();
-  const auto functions = std::make_shared<Functions>(1, below(0.5));
-  IntegratorOptions options = options_with(functions);
-  options.fixed_step = 0.01;
-  const auto integrator = GetParam().with(system, options);
-  const auto evaluations_of_steps = [&] {
-    const long before = integrator->work().right_hand_sides;
-    for (int i = 0; i < 20; ++i) integrator->step();
-    return integrator->work().right_hand_sides - before;
-  };
-  integrator->restart(0.0, system.initial());
-  const long at_first = evaluations_of_steps();
-  ASSERT_TRUE(next_root(*integrator, 3.0));
-  functions->values = above(0.5);
-  integrator->restart(integrator->time(), State(integrator->state()));
-  EXPECT_EQ(evaluations_of_steps(), at_first);
 }
 
 struct Mishap {};

@@ -56,22 +56,6 @@ TEST(HermiteCubic, RiseFindsTheRootOfAMonotoneCubicAnywhereInTheStep) {
   }
 }
 
-TEST(HermiteCubic, RiseKeepsToItsBracketWhenTheCubicHasOtherRoots) {
-  const auto f = [](double t) { return (t - 0.2) * (t - 0.5) * (t - 0.9); };
-  const auto rate = [](double t) {
-    return (t - 0.5) * (t - 0.9) + (t - 0.2) * (t - 0.9) + (t - 0.2) * (t - 0.5);
-  };
-  const HermiteCubic path(f(0.0), rate(0.0), f(1.0), rate(1.0), 1.0);
-  EXPECT_NEAR(path.rise(0.0, 0.4), 0.2, 1e-12);
-  EXPECT_NEAR(path.rise(0.6, 1.0), 0.9, 1e-12);
-}
-
-TEST(HermiteCubic, RatesAreTakenPerTimeAndNotPerStep) {
-  // value = t over a step of 1e-7: the step's length must enter.
-  const HermiteCubic path(0.0, 1.0, 1e-7, 1.0, 1e-7);
-  EXPECT_NEAR(path(0.25), 0.25e-7, 1e-21);
-}
-
 TEST(HermiteCubic, RisesBehindItsDipWhereItStartsAtZeroAndFalls) {
   const Cubic cubic{0.0, -0.3, 0.7, 0.2};  // t (0.2 t^2 + 0.7 t - 0.3)
   const double root = (-0.7 + std::sqrt(0.49 + 0.24)) / 0.4;

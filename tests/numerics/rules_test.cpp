@@ -31,11 +31,5 @@ TEST(GaussRule, IsExactUpToItsDegreeAndHasItsErrorConstantBeyond) {
   expect_degree_and_error_constant<5>();
 }
 
-TEST(GaussRule, IsACompileTimeConstantSymmetricAboutTheMiddle) {
-  static_assert(gauss<5>.points[2] == 0.5);
-  static_assert(gauss<5>.points[0] + gauss<5>.points[4] == 1.0);
-  static_assert(gauss<4>.weights[1] == gauss<4>.weights[2]);
-}
-
 }  // namespace
 }  // namespace subimpact

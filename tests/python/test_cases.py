@@ -32,26 +32,6 @@ def test_every_key_takes_its_value_and_refuses_others_by_name(key, elastic):
     assert refused.value.key == key.name
 
 
-@pytest.mark.parametrize("key", si.keys().values(), ids=lambda key: key.name)
-def test_messages_of_files_are_those_of_the_program(key, tmp_path, program):
-    wrong = {"number": '"many"', "count": "2.5", "flag": '"yes"', "text": "7",
-             "choice": '"no such choice"', "pair": '["a", "b"]', "numbers": '"half"',
-             "placed": '"half"'}[key.type]
-    path = tmp_path / "case.toml"
-    lines = [line for line in ELASTIC.splitlines() if line]
-    tables = {line.split(" ")[0] for line in lines}
-    table, _, leaf = key.name.rpartition(".")
-    setting = f"{key.name} = {wrong}\n"
-    if table.split(".")[0] in tables:  # in place of the table's line
-        lines = [line for line in lines if not line.startswith(table.split(".")[0] + " ")]
-    path.write_text(setting + "\n".join(lines) + "\n")
-    with pytest.raises(si.CaseError) as refused:
-        si.Case.from_file(path)
-    assert refused.value.key == key.name
-    assert refused.value.line == 1
-    assert str(refused.value) in program("explain", path, status=2).stderr
-
-
 def test_tables_keys_with_dots_and_a_file_are_one_case(elastic, tmp_path):
     given = elastic.given()
     nested = {}
@@ -217,22 +197,6 @@ def test_whole_floating_point_numbers_are_counts(elastic):
     for value in (101.5, 1e300, float("inf")):
         with pytest.raises(si.CaseError, match="allowed: a whole number"):
             elastic["model.segments"] = value
-
-
-def test_gauges_at_a_length_are_gauges_at_its_fraction(elastic):
-    elastic["output.gauges"] = [{"position": "355.6 mm"}]
-    assert elastic["output.gauges"] == [{"position": 0.5, "face": "back"}]
-    elastic["output.gauges"] = [{"position": "0.8 m"}]
-    with pytest.raises(si.CaseError, match="position 1.12.*beam.length is 0.7112 m"):
-        elastic.check()
-
-
-def test_a_missing_number_is_asked_for_with_its_unit_behind_its_name(elastic):
-    for key, words in (("beam.youngs_modulus", "give the Young's modulus in Pa"),
-                       ("striker.velocity", "give the velocity at t = 0 in m/s")):
-        with pytest.raises(si.CaseError) as refused:
-            elastic[key] = "much"
-        assert words in str(refused.value)
 
 
 def test_values_with_a_unit_are_those_of_a_file(elastic):

@@ -60,7 +60,7 @@ def test_a_doubt_with_a_comma_is_read_whole_from_tables_and_a_beam_that_turns_to
     assert runs["permanent_set_m"].notna().tolist() == [True, False]
 
 
-@pytest.mark.parametrize("error_bars", [None, "off", "all"])
+@pytest.mark.parametrize("error_bars", [None, "off"])
 def test_tables_are_those_of_the_program_bit_for_bit(elastic, error_bars, tmp_path, program):
     elastic.write(tmp_path / "case.toml")
     option = [f"--error-bars={error_bars}"] if error_bars else []
@@ -85,9 +85,6 @@ def test_a_yielding_beam_and_a_wish_are_those_of_the_program(yielding, tmp_path,
     assert result["accuracy.event_times"] == 1e-6 and "wish" in result.summary
 
 
-
-
-
 def test_columns_are_views_of_one_read_only_array(elastic):
     result = si.run(elastic)
     assert result.history is result.history
@@ -98,15 +95,6 @@ def test_columns_are_views_of_one_read_only_array(elastic):
         force[0] = 1.0
     assert result.sub_impacts["index"][0] == 1
     assert set(np.unique(result.transitions["kind"])) >= {"contact_begins", "contact_ends"}
-
-
-def test_the_summary_and_the_outcome_agree(elastic):
-    result = si.run(elastic)
-    assert result.outcome == "completed" and result.usable and result.first_failure is None
-    assert result.summary["counts"]["sub_impacts"] == len(result.sub_impacts)
-    assert result.time == elastic["time.end"]
-    assert result["model.segments"] == 51
-    assert "completed" in repr(result) and "zone 1" in result.report()
 
 
 @pytest.mark.parametrize("timeout", [-1, 0, float("nan"), float("inf"), 1e300, "1", True])
@@ -212,24 +200,16 @@ def test_two_threads_run_at_the_same_time(elastic):
     def one():
         return si.run(case, error_bars="off")
 
-    start = time.perf_counter()
-    alone = [one(), one()]
-    serial = time.perf_counter() - start
-    results = []
+    alone, results, ticks = one(), [], 0
     threads = [threading.Thread(target=lambda: results.append(one())) for _ in range(2)]
-    start = time.perf_counter()
     for thread in threads:
         thread.start()
-    ticks = 0
     while any(thread.is_alive() for thread in threads):
         time.sleep(0.005)
         ticks += 1  # this thread has the GIL meanwhile
-    parallel = time.perf_counter() - start
-    print(f"two runs: {serial:.2f} s one after another, {parallel:.2f} s side by side, "
-          f"{serial / parallel:.2f} times faster; {ticks} ticks")
     assert ticks > 5
     for result in results:
-        assert result.history.tobytes() == alone[0].history.tobytes()
+        assert result.history.tobytes() == alone.history.tobytes()
 
 
 def test_a_failure_is_a_result(yielding):
@@ -249,12 +229,6 @@ def test_a_result_is_the_same_after_pickling(elastic):
                 np.testing.assert_allclose(other[column], one[column], rtol=1e-8)
         else:
             assert other.tobytes() == one.tobytes(), name
-
-
-def test_the_case_of_a_result_repeats_it(elastic):
-    result = si.run(elastic)
-    assert result.case["solver.rtol"] == result["solver.rtol"]
-    np.testing.assert_array_equal(si.run(result.case).sub_impacts["start_s"], result.sub_impacts["start_s"])
 
 
 def test_gauges_are_columns_of_the_history_after_files_and_pickling_too(elastic, tmp_path):

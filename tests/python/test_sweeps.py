@@ -90,11 +90,6 @@ def test_uniform_samples_have_the_same_deviation_and_a_largest_shift(elastic, tm
         si.Plan(elastic, scatter={"striker.velocity": 0.01}, samples=2, distribution="even")
 
 
-def test_keys_that_change_together_are_one_axis(elastic):
-    plan = si.Plan(elastic, {("beam.width", "beam.thickness"): [(0.01, 0.02), (0.02, 0.01)]})
-    assert plan.settings(1) == [("beam.width", 0.02), ("beam.thickness", 0.01)]
-
-
 def test_values_with_a_unit_are_numbers_of_the_plan(elastic, tmp_path):
     plan = si.Plan(elastic, {"striker.velocity": ["2 m/s", 4.0], ("beam.width", "beam.thickness"): [("20 mm", "8 mm")]})
     assert plan.settings(0) == [("striker.velocity", 2.0), ("beam.width", 0.02), ("beam.thickness", 0.008)]
@@ -109,41 +104,6 @@ def test_a_sweep_of_nothing_is_refused(elastic, tmp_path):
         with pytest.raises(si.PlanError, match="nothing differs from case to case; give axes"):
             si.sweep(elastic, axes, out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.parametrize("axes, scatter, words", [
-    ({"striker.velocty": [1.0]}, {}, "did you mean"),
-    ({"striker.velocity": [1.0, -1.0]}, {}, "0 or above"),
-    ({"striker.velocity": []}, {}, "no values"),
-    ({"striker.velocity": [1.0], ("striker.velocity",): [(2.0,)]}, {}, "two axes"),
-    ({("beam.width", "beam.thickness"): [(0.01,)]}, {}, "2 values"),
-    ({}, {"beam.theory": 0.01}, "no number"),
-    ({}, {"beam.yield_stress": 0.01}, "no finite value"),
-    ({}, {"striker.mass": -0.01}, "above 0"),
-    ({}, {"beam.length": 5}, "up to 0.5"),
-    ({"beam.length": ["200 g"]}, {}, '"g" is none of its units'),
-    ({"contact.stiffness": ["2 kN/m"]}, {}, "write the number without a unit"),
-])
-def test_what_is_no_plan_is_refused(elastic, axes, scatter, words):
-    with pytest.raises(ValueError, match=words):
-        si.Plan(elastic, axes, scatter or None, samples=1 if scatter else None)
-
-
-@pytest.mark.parametrize("values, words", [
-    (dict(scatter={"striker.velocity": 0.01}), "without samples"),
-    (dict(samples=10), "nothing scatters"),
-    (dict(samples=10, scatter={}), "nothing scatters"),
-    (dict(samples=0, scatter={"striker.velocity": 0.01}), "samples is 0"),
-    (dict(samples=10, scatter={"striker.velocity": "1 %"}), "scatter of striker.velocity"),
-    (dict(seed=-1), "seed is -1"), (dict(timeout=0.0), "timeout is 0"),
-    (dict(error_bars="some"), "error_bars"),
-    (dict(axes={"striker.velocity": 3.0}), "a list of values"),
-    (dict(axes={"solver.method": "erk"}), "a list of values"),
-    (dict(axes={("beam.width", "beam.thickness"): [0.01, 0.02]}), "tuples of 2 values"),
-])
-def test_numbers_that_are_no_plan_are_refused(elastic, values, words):
-    with pytest.raises(si.PlanError, match=words):
-        si.Plan(elastic, **values)
 
 
 SCATTER = {"scatter.striker.velocity": 0.01, "scatter.beam.yield_stress": 0.02,
@@ -174,23 +134,6 @@ def test_without_a_directory_a_sweep_keeps_its_tables_as_long_as_it_lives(withou
     del sweep
     gc.collect()
     assert not directory.exists()
-
-
-@pytest.mark.parametrize("line, words", [
-    ("axis = 1", "unknown key"), ("samples = 0", "samples"), ('error_bars = "some"', "error_bars"),
-    ("axes.striker.mass = 1", "list"), ("axes.striker.mass = {from = 1, to = 2}", "n = 50"),
-    ("[", "no TOML"), ("axes.striker.mas = [1]", "did you mean"),
-])
-def test_what_is_no_plan_file_is_refused(tmp_path, line, words):
-    (tmp_path / "case.toml").write_text(ELASTIC)
-    (tmp_path / "plan.toml").write_text('case = "case.toml"\n' + line)
-    done = command(tmp_path / "plan.toml")
-    assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
-
-
-def test_spaced_values_hold_both_ends():
-    assert spaced(2, 16, 50)[-1] == 16
-    np.testing.assert_allclose(spaced(1, 100, 3, "log"), [1, 10, 100])
 
 
 def test_tables_do_not_depend_on_what_ran_the_cases(population, tmp_path):
@@ -259,15 +202,6 @@ def test_a_changed_plan_keeps_what_still_fits(population, tmp_path, monkeypatch)
     assert counted == [16, 17, 18, 19]  # those of the new mass
     si.sweep(wider, out=tmp_path / "fresh", workers=0)
     assert tables(tmp_path) == tables(tmp_path / "fresh")
-
-
-def test_cases_that_are_refused_are_rows(elastic, tmp_path):
-    elastic["output.shapes"] = 0.0
-    si.sweep(elastic, {"contact.law": ["hertz", "foundation", "linear"]}, out=tmp_path, workers=2)
-    with open(tmp_path / "runs.csv") as file:
-        rows = list(csv.DictReader(file))
-    assert [row["outcome"] for row in rows] == ["completed", "refused", "completed"]
-    assert "contact.stiffness" in rows[1]["message"]
 
 
 @pytest.mark.parametrize("axis", [{"striker.velocity": [1.0, 2.0, 4.0]}, {"contact.stiffness": [1e9, 2e9, 5e9]}])
@@ -363,8 +297,8 @@ def test_two_sweeps_do_not_share_a_directory(population, tmp_path):
             si.sweep(population, out=tmp_path, workers=0)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_keeps_the_rows_and_the_same_command_goes_on(plan_file, tmp_path, python, number):
+def test_a_signal_keeps_the_rows_and_the_same_command_goes_on(plan_file, tmp_path, python):
+    number = signal.SIGTERM
     process = python("-m", "subimpact.sweep", plan_file, "--out", tmp_path / "out", "--workers", 2)
     while process.poll() is None and not any(tmp_path.glob("out/sweep.sqlite")):
         time.sleep(0.01)
@@ -381,8 +315,7 @@ def test_a_signal_keeps_the_rows_and_the_same_command_goes_on(plan_file, tmp_pat
     assert tables(tmp_path / "out") == tables(tmp_path / "whole")
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_to_coordinator_and_workers_ends_a_sweep_of_a_large_plan(plan_file, tmp_path, python, number):
+def test_a_signal_to_coordinator_and_workers_ends_a_sweep_of_a_large_plan(plan_file, tmp_path, python):
     """Whose tasks fill the pipe to the workers when these die."""
     text = PLAN.replace("n = 10 }", "n = 5000 }").replace("samples = 4", "samples = 1")
     plan_file.write_text(text)
@@ -390,9 +323,9 @@ def test_a_signal_to_coordinator_and_workers_ends_a_sweep_of_a_large_plan(plan_f
                      start_new_session=True)
     while process.poll() is None and not has_rows(tmp_path / "out" / "sweep.sqlite"):
         time.sleep(0.05)
-    os.killpg(process.pid, number)
+    os.killpg(process.pid, signal.SIGINT)
     output = process.communicate(timeout=60)
-    assert process.returncode == 128 + number, output
+    assert process.returncode == 128 + signal.SIGINT, output
     assert (tmp_path / "out" / "runs.csv").exists()
 
 
@@ -413,15 +346,14 @@ def test_from_python_a_signal_is_a_keyboard_interrupt_after_the_rows_are_kept(
     assert 1 < (tmp_path / "runs.csv").read_bytes().count(b"\n") < len(slow)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_while_tables_are_written_waits_for_them(population, tmp_path, monkeypatch, number):
+def test_a_signal_while_tables_are_written_waits_for_them(population, tmp_path, monkeypatch):
     from subimpact.sweep import tables as module
 
     write = module._write_rows
-    monkeypatch.setattr(module, "_write_rows", lambda *a: (os.kill(os.getpid(), number), write(*a))[1])
+    monkeypatch.setattr(module, "_write_rows", lambda *a: (os.kill(os.getpid(), signal.SIGTERM), write(*a))[1])
     with pytest.raises(KeyboardInterrupt) as stopped:
         si.sweep(population, out=tmp_path, workers=0)
-    assert stopped.value.signal == number
+    assert stopped.value.signal == signal.SIGTERM
     assert tables(tmp_path)[0].count(b"\n") == 41
 
 

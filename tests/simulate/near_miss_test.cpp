@@ -135,13 +135,6 @@ TEST(ASeparationThatNearlyCloses, KeepsTimeAndMarginByEveryMethod) {
   }
 }
 
-TEST(ATouchWithoutReturn, HasNoNearMiss) {
-  StruckBeam beam = TwoBodies{}.make();
-  const Result result = run_two_bodies(beam, {}, 1.0);
-  EXPECT_EQ(result.sub_impacts.size(), 1u);
-  EXPECT_TRUE(result.near_misses.empty());
-}
-
 // Far longer than its minima: the nearest are kept, and they are bounded in number.
 TEST(NearMisses, OfOneSeparationAreTheNearestFewInOrderOfTime) {
   TwoBodies bodies;

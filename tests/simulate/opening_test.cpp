@@ -21,14 +21,6 @@ TEST(TheOpeningAfterTheLastContact, ReachesToTheEndOfTheRun) {
   EXPECT_NEAR(*only.opening, apart, 1e-8 * apart);
 }
 
-TEST(AContactThatHasNotEnded, HasNoOpening) {
-  TwoBodies bodies;
-  StruckBeam beam = bodies.make();
-  const Result result = run_two_bodies(beam, {}, 0.5 * bodies.duration());
-  ASSERT_EQ(result.sub_impacts.size(), 1u);
-  EXPECT_FALSE(result.sub_impacts.front().opening);
-}
-
 // A light target on a spring, struck by a heavy striker: after the contact the striker moves
 // uniformly and the target swings, so that the gap is known from the state as they part.
 TEST(TheOpeningBeforeTheNextContact, IsTheClosedFormOfAStrikerAndASwingByEveryMethod) {

@@ -143,15 +143,5 @@ TEST(RunsThatShareTheirParts, GiveInSeveralThreadsTheBitsOfRunsAlone) {
   }
 }
 
-TEST(ResultsOfRuns, ReportInOneLineAndKeepWhatWasGiven) {
-  Case input = short_case();
-  input.solver.method = Method::central_difference;
-  const Result result = simulate(input);
-  EXPECT_EQ(result.brief_report().find("completed at 0.0003 s: "), 0u) << result.brief_report();
-  EXPECT_EQ(result.brief_report().find('\n'), std::string::npos);
-  EXPECT_EQ(result.used.events, EventHandling::interpolated);
-  EXPECT_FALSE(result.given.solver.events.has_value());
-}
-
 }  // namespace
 }  // namespace subimpact

@@ -220,15 +220,6 @@ TEST(AContactThatChangesWhileTimeStandsStill, EndsTheRunAsChattering) {
   }
 }
 
-TEST(AMethodThatStoodStill, EndsTheRunWithFewSubImpacts) {
-  Case input = coarse_strike(Method::adams, 1e-2);
-  input.end_time = 1e-3;
-  input.accuracy.energy = 1.0;  // or the run ends before
-  const Result result = simulate(input);
-  EXPECT_FALSE(result.outcome.completed());
-  EXPECT_LT(result.sub_impacts.size(), 200u);
-}
-
 // --- central differences ------------------------------------------------------------------------
 
 Case on_stiff_linear_contact() {
@@ -268,22 +259,6 @@ TEST(CentralDifferences, DoNotWarnOfAContactThatTheEndOfTheRunCutsOff) {
   ASSERT_EQ(result.sub_impacts.size(), 1u);
   EXPECT_FALSE(result.sub_impacts.front().end);
   EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
-}
-
-TEST(CentralDifferences, KeepHistoryInOrderAndImpulsesEqualToTheChangeOfVelocityInFlight) {
-  const Result result =
-      simulate(paper_case(SectionKind::layers, 2e-3, 501, Method::central_difference));
-  EXPECT_TRUE(
-      std::is_sorted(result.history.begin(), result.history.end(),
-                     [](const HistoryRow& a, const HistoryRow& b) { return a.time < b.time; }));
-  // In flight the striker keeps the velocity that the table gives for the end of contact.
-  for (std::size_t i = 0; i + 1 < result.sub_impacts.size(); ++i) {
-    const SubImpact& s = result.sub_impacts[i];
-    for (const HistoryRow& row : result.history) {
-      if (row.time <= *s.end || row.time >= result.sub_impacts[i + 1].start) continue;
-      EXPECT_NEAR(row.striker_velocity, s.striker_velocity, 1e-12) << row.time;
-    }
-  }
 }
 
 TEST(CentralDifferences, RefuseLocatedEventsWithStepsThatWouldMakeThemGrow) {

@@ -233,14 +233,6 @@ TEST(ADiskTooSmall, IsFoundBeforeTheRunAndTheOlderFilesStay) {
   EXPECT_EQ(names_in(directory.path), before);
 }
 
-TEST(FilesBeingMade, AreNamedByTheirPlaceInMessages) {
-  const TemporaryDirectory directory;
-  OutputDirectory files(directory.path, "run");
-  fs::create_directory(files.staging() / "events.csv");
-  expect_in(message_of<OutputError>([&] { write_file(files.staging() / "events.csv", "new"); }),
-            (directory.path / "events.csv").string() + ": cannot be written");
-}
-
 TEST_F(AnOutputDirectory, KeepsHiddenFilesThatTheProgramDidNotMake) {
   fs::create_directory(directory.path / ".subimpact-backup");
   write_file(directory.path / ".subimpact-backup" / "data", "mine");

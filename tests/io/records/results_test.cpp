@@ -239,14 +239,6 @@ TEST(SummaryJson, ListsNearMissesInTheirOrderInTime) {
   EXPECT_EQ(json[1].at("kind"), "closing");
 }
 
-TEST(SummaryJson, NamesTheVersionOfEveryLibrary) {
-  const auto json = parsed_summary(sample_case(), sample_result());
-  for (const char* library : {"SUNDIALS", "KLU", "Eigen", "fmt", "nlohmann-json", "toml++"}) {
-    const std::string version = json.at("libraries").at(library);
-    EXPECT_NE(version.find('.'), std::string::npos) << library << ' ' << version;
-  }
-}
-
 TEST(SummaryJson, StaysValidWhenNumbersAreNot) {
   Case input = sample_case();
   input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
@@ -264,18 +256,6 @@ TEST_F(WriteResults, LeavesItsFilesAndNothingElse) {
   EXPECT_EQ(names_in(directory.path / "new" / "deep"),
             (std::vector<std::string>{"case.toml", "events.csv", "history.csv", "manifest.json",
                                       "summary.json", "transitions.csv"}));
-}
-
-TEST_F(WriteResults, ReplacesAnEarlierRun) {
-  Case with_sections = sample_case();
-  with_sections.output.sections = {0.5};
-  write_results(directory.path, with_sections, sample_result());
-  EXPECT_TRUE(fs::exists(directory.path / "sections.csv"));
-  Result later = sample_result();
-  later.sub_impacts.clear();
-  write_results(directory.path, sample_case(), later);
-  EXPECT_EQ(read_file(directory.path / "events.csv"), csv_of<SubImpact>({}));
-  EXPECT_FALSE(fs::exists(directory.path / "sections.csv"));
 }
 
 TEST_F(WriteResults, OfRowsAsTheyAreMadeAreThoseOfTheWholeResult) {

@@ -82,21 +82,6 @@ TEST(BallContact, IsHertzsLessWhatTheHalfSpaceMovesAtTheMidPlane) {
   }
 }
 
-TEST(BallContact, TakesThreeQuartersOfRadiusOverDepthOfHertzsIndentation) {
-  const MidPlaneContact law = ball({});
-  const double lambda = 1e-9, a = law.half_width_at(lambda);
-  const double share = 4.0 / 3.0 * (3.0 - 2.0 * nu) / (2.0 * M_PI * (1.0 - nu));
-  EXPECT_NEAR(lambda / (a * a / R), 1.0 - share * a / d, 1e-6);
-  EXPECT_NEAR(share, 0.74, 0.005);
-}
-
-TEST(BallContact, DeepInThePlasticRangeIsAsWideAsAPressedInBall) {
-  const MidPlaneContact law = ball(cut_off(Nose::ball, 2.8), INFINITY);
-  const double a = law.half_width_at(4e-4);
-  EXPECT_NEAR(a * a / (2.0 * R * 4e-4), 1.0, 0.05);
-  EXPECT_NEAR(law.plastic_force(4e-4) / (M_PI * a * a * 2.8 * Y), 1.0, 0.01);
-}
-
 // Of a mass that meets the contact with `ratio` times the velocity of first yield.
 double restitution(const ContactLaw& law, double ratio) {
   const double energy = law.work_up_to(law.yield_threshold({})) * ratio * ratio;
@@ -123,20 +108,6 @@ TEST(BallContact, HasJohnsonsRestitutionDeepInThePlasticRange) {
       last = error;
     }
     EXPECT_LT(last, 3e-3);
-  }
-}
-
-TEST(BallContact, ThatYieldsByDepthReturnsMoreThanAtItsFirstPressureAndLessThanAtItsLast) {
-  const MidPlaneContact first = ball(cut_off(Nose::ball, 1.6)), rising = ball(by_depth(Nose::ball));
-  const MidPlaneContact last = ball(cut_off(Nose::ball, 2.8));
-  for (const double ratio : {3.0, 10.0, 100.0}) {
-    const double energy = first.work_up_to(first.yield_threshold({})) * ratio * ratio;
-    const auto returned = [&](const ContactLaw& law) {
-      const double deepest = law.indentation_at(energy);
-      return law.recoverable_energy({deepest}, deepest);
-    };
-    EXPECT_GT(returned(rising), returned(first)) << ratio;
-    EXPECT_LT(returned(rising), returned(last)) << ratio;
   }
 }
 

@@ -174,24 +174,6 @@ TEST_P(EveryShape, OfManyLayersTendsToTheExactSection) {
   }
 }
 
-// m = (1 - h) f(x) + h x, after reversals too.
-TEST_P(EveryShape, HardensByTheShareOfItsElasticStiffness) {
-  for (const bool layered : {false, true}) {
-    const Beam beam = beam_of(GetParam().section);
-    const Fibres plain = layered ? Fibres::layered(20, beam) : Fibres::continuous(beam);
-    for (const double h : {0.01, 0.3}) {
-      const Fibres hardened = plain.hardened(h);
-      EXPECT_DOUBLE_EQ(hardened.slope(), plain.slope());
-      EXPECT_NEAR(hardened.shape_factor(), plain.shape_factor(), 1e-14);
-      for (const double x : {-3.0, 0.4, 1.0, 1.3, 20.0}) {
-        const double expected = (1.0 - h) * plain.moment(x) + h * plain.slope() * x;
-        EXPECT_NEAR(hardened.moment(x), expected, 1e-13 * std::abs(expected));
-        EXPECT_NEAR(hardened.tangent(x), (1.0 - h) * plain.tangent(x) + h * plain.slope(), 1e-13);
-      }
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Sections, EveryShape, testing::ValuesIn(shapes), NamedAsPrinted{});
 
 TEST(Sections, HaveTheShapeFactorsOfTextbooks) {

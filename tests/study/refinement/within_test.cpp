@@ -21,10 +21,6 @@ Case wishing(double wish, SectionKind section, double end_time, int segments = 5
 
 GivenKeys given(std::set<std::string> keys) { return {std::move(keys), {}}; }
 
-TEST(OpenChoices, AreAllOfACaseThatNamesNeitherMeshNorMethod) {
-  EXPECT_TRUE(open_choices(given({"beam.length", "time.end", "model.section"})).all());
-}
-
 TEST(OpenChoices, ASizeFixesItsMeshAndAToleranceItsMethod) {
   const OpenChoices sized = open_choices(given({"model.segments"}));
   EXPECT_FALSE(sized.size || sized.mesh);
@@ -113,45 +109,18 @@ TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
 }
 
 TEST(AWish, ChoosesTheSameWhateverTheNumberOfJobs) {
-  for (const SectionKind section : {SectionKind::elastic, SectionKind::exact}) {
-    Case input = wishing(1e-6, section, 1e-3);
-    input.accuracy.work_limit = 3e7;
-    const WithinRun alone = simulate_within(input, {});
-    WithinOptions two;
-    two.jobs = 2;
-    const WithinRun beside = simulate_within(input, {}, two);
-    EXPECT_EQ(mesh_count(alone.input), mesh_count(beside.input));
-    expect_same(alone.result, beside.result);
-    for (std::size_t i = 0; i < alone.result.sub_impacts.size(); ++i) {
-      const SubImpact& one = alone.result.sub_impacts[i];
-      const SubImpact& other = beside.result.sub_impacts[i];
-      EXPECT_EQ(one.certain, other.certain) << i;
-      EXPECT_EQ(one.end_error, other.end_error) << i;
-    }
+  Case input = wishing(1e-6, SectionKind::exact, 1e-3);
+  input.accuracy.work_limit = 3e7;
+  const WithinRun alone = simulate_within(input, {});
+  WithinOptions two;
+  two.jobs = 2;
+  const WithinRun beside = simulate_within(input, {}, two);
+  EXPECT_EQ(mesh_count(alone.input), mesh_count(beside.input));
+  expect_same(alone.result, beside.result);
+  for (std::size_t i = 0; i < alone.result.sub_impacts.size(); ++i) {
+    EXPECT_EQ(alone.result.sub_impacts[i].certain, beside.result.sub_impacts[i].certain) << i;
+    EXPECT_EQ(alone.result.sub_impacts[i].end_error, beside.result.sub_impacts[i].end_error) << i;
   }
-}
-
-// Sub-impacts called certain, and their errors, beside those on a mesh four times finer.
-TEST(AWish, OfAYieldingBeamIsCertainOfWhatAFineMeshHas) {
-  Case input = wishing(1e-7, SectionKind::exact, 3e-3);
-  input.accuracy.work_limit = 1.5e8;
-  const WithinRun found = simulate_within(input, {});
-  ASSERT_LT(mesh_count(found.input), 2100);
-  Case fine = found.input;
-  fine.model.segments = 8001;
-  const Result right = simulate(fine);
-  const Counterparts there = counterparts(found.result.sub_impacts, right.sub_impacts);
-  int n_times = 0, n_covered = 0;
-  for (std::size_t i = 0; i < found.result.sub_impacts.size(); ++i) {
-    const SubImpact& here = found.result.sub_impacts[i];
-    if (!*here.certain) continue;
-    ASSERT_TRUE(there.of[i]) << i;
-    n_times += 2;
-    n_covered += std::abs(here.start - there.of[i]->start) <= *here.start_error;
-    n_covered += std::abs(*here.end - *there.of[i]->end) <= *here.end_error;
-  }
-  EXPECT_GE(n_times, 28);
-  EXPECT_GE(n_covered, n_times - 1);
 }
 
 // A search whose runs are made up: each takes work in proportion to the square of its cells, and
@@ -234,16 +203,6 @@ TEST(AWish, StopsAtTheLimitOfWork) {
   EXPECT_LE(work, 2.0 * 3e6);  // the limit holds for predicted work
 }
 
-TEST(CountedWork, GrowsWithTheSectionsThatFlow) {
-  const Case input = paper_run(SectionKind::exact, 5e-4, 101, Method::central_difference);
-  Result result = simulate(input);
-  EXPECT_GT(result.work.section_flows, 0);
-  const double all = counted_work(input, result);
-  const long flows = std::exchange(result.work.section_flows, 0);
-  EXPECT_GT(all - counted_work(input, result), static_cast<double>(flows));
-  EXPECT_EQ(simulate(paper_run(SectionKind::elastic, 5e-4)).work.section_flows, 0);
-}
-
 TEST(AWish, BeginsOnACoarserMeshWhereTheUsualFirstOneIsAboveTheLimitAndRunsItOnce) {
   Case input = wishing(1e-10, SectionKind::exact, 1e-3);
   input.output.interval = 1e-5;
@@ -301,15 +260,6 @@ TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
   ASSERT_NE(moment, run.result.error_estimate->totals.end());
   EXPECT_GT(moment->total.error.value_or(0.0), 0.0);
   EXPECT_LT(*moment->total.error, 0.05 * moment->total.value);
-}
-
-TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
-  Case input = wishing(1e-6, SectionKind::exact, 0.3e-3);
-  input.scene.beam.yield_stress = 3e9;
-  const WithinRun run = simulate_within(input, {});
-  EXPECT_EQ(run.result.n_yielded_sections, 0u);
-  EXPECT_EQ(run.input.model.mesh, MeshKind::hermite);
-  EXPECT_TRUE(run.result.tolerance->met) << words_of(run.result.tolerance->reason);
 }
 
 TEST(CasesBeside, AreCoarserInMeshAndTime) {
