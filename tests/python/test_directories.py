@@ -35,7 +35,7 @@ def test_both_tables_are_sealed_as_one(swept):
     sweep(0.4)
     assert manifest(directory)["identity"] != first["identity"]
     names = {path.name for path in directory.iterdir()}
-    assert names == {"base.toml", "manifest.json", "runs.csv", "sub_impacts.csv", "sweep.sqlite"}
+    assert names == {"base.toml", "manifest.json", "runs.csv", "sub_impacts.csv", "sweep.rows"}
 
 
 def test_foreign_files_are_kept_and_links_are_not_followed(swept):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import importlib
 import signal
-import sqlite3
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -123,7 +122,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (CaseError, PlanError, StoreError) as error:
         _say(str(error))
         return 2
-    except (OSError, sqlite3.Error) as error:  # a full disk, a scheduler out of reach
+    except OSError as error:  # a full disk, a scheduler out of reach
         _say(str(error))
         return 3
     except MemoryError:

@@ -42,7 +42,7 @@ class Sweep:
     ) -> None:
         self._temporary = temporary
         self.plan = plan
-        self.directory = directory  #: of sweep.sqlite, runs.csv, sub_impacts.csv and base.toml, the case that the keys change
+        self.directory = directory  #: of sweep.rows, runs.csv, sub_impacts.csv and base.toml, the case that the keys change
         self.outcomes = dict(outcomes)  #: how many cases have each outcome
         self.n_missing = len(plan) - sum(outcomes.values())  #: cases that have no row yet
         self.notes = notes  #: messages for the user
@@ -199,7 +199,7 @@ def sweep(
 
     case, axes, scatter, samples, seed, error_bars, timeout, distribution
                 what is run: see `Plan`. A Plan may stand in place of the case
-    out         the directory of the results: the store (sweep.sqlite) and its tables runs.csv and
+    out         the directory of the results: the store (sweep.rows) and its tables runs.csv and
                 sub_impacts.csv. A sweep that was stopped, by whatever, goes on from there; cases of
                 an earlier plan that the new one has too are not run again. Left out: a temporary
                 directory, which goes with the Sweep
@@ -235,14 +235,12 @@ def sweep(
             _merge(store, directory)
         if retry:
             store.drop(RETRIED)
-        known = store.outcomes()
         identities: dict[int, str] = {}
         missing = list(numbers)
         # Without rows to go on from, the identities come with the rows: each takes time to find.
-        if known or _has_equal_cases(plan):
-            places = store.places()
-            identities = {number: places.get(plan.place(number)) or identity_of(plan, number) for number in range(len(plan))}
-            missing = _missing(numbers, identities, known)
+        if store.outcomes or _has_equal_cases(plan):
+            identities = {number: store.identities.get(plan.place(number)) or identity_of(plan, number) for number in range(len(plan))}
+            missing = _missing(numbers, identities, store.outcomes)
         sink = _Sink(plan, store, identities, len(numbers) - len(missing), len(numbers), progress)
         try:
             _hand_out(plan, missing, sink, workers, memory, executor)
