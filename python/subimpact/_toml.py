@@ -58,8 +58,9 @@ def is_too_deep(text: str) -> bool:
     return False
 
 
-def flat(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """The values of nested tables by keys with dots; a later one of the same key counts."""
+def flat(tables: Mapping[str, Any], prefix: str = "", value_with: str = "") -> dict[str, Any]:
+    """The values of nested tables by keys with dots; a later one of the same key counts. A table with the key `value_with` is
+    a value."""
     if prefix.count(".") > DEEPEST:
         raise CaseError(
             f"tables are nested deeper than {DEEPEST}, in {prefix[:40]}...; allowed: tables of keys, such "
@@ -67,8 +68,8 @@ def flat(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
         )
     values: dict[str, Any] = {}
     for name, value in tables.items():
-        if isinstance(value, Mapping):
-            values.update(flat(value, f"{prefix}{name}."))
+        if isinstance(value, Mapping) and value_with not in value:
+            values.update(flat(value, f"{prefix}{name}.", value_with))
         else:
             values[prefix + str(name)] = value
     return values

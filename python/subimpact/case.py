@@ -123,10 +123,10 @@ class Case:
         self._loaded: _core.LoadedCase | None = None
 
     @classmethod
-    def from_text(cls, text: str, name: str = "text") -> Case:
-        """The case of a TOML text. `name` stands for a file in messages."""
+    def from_text(cls, text: str, name: str = "text", overrides: Sequence[tuple[str, str, str]] = ()) -> Case:
+        """The case of a TOML text. `name` stands for a file in messages; `overrides`: as of a file."""
         case = cls.__new__(cls)
-        case._begin(text, name)
+        case._begin(text, name, overrides)
         case.check()
         return case
 
@@ -134,10 +134,7 @@ class Case:
     def from_file(cls, path: str | os.PathLike[str], overrides: Sequence[tuple[str, str, str]] = ()) -> Case:
         """The case of a TOML file, of at most 1,000,000 bytes. `overrides`: keys, values as texts, and where these are from."""
         name = printable(os.fsdecode(path))
-        case = cls.__new__(cls)
-        case._begin(read_text(path, "a case file", CaseError, f"{name}: "), name, overrides)
-        case.check()
-        return case
+        return cls.from_text(read_text(path, "a case file", CaseError, f"{name}: "), name, overrides)
 
     def _load(self) -> _core.LoadedCase:
         if self._loaded is None:
@@ -220,20 +217,13 @@ class Case:
     def copy(self) -> Case:
         """A copy that changes by itself."""
         case = Case.__new__(Case)
-        case._begin(self._text, self._name, self._overrides)
-        case._settings = dict(self._settings)
-        case._loaded = self._loaded
+        vars(case).update(vars(self), _settings=dict(self._settings))
         return case
 
     __copy__ = copy
 
-    def __getstate__(self) -> tuple[Any, ...]:
-        return self._text, self._name, self._overrides, self._settings
-
-    def __setstate__(self, state: tuple[Any, ...]) -> None:
-        *begin, settings = state
-        self._begin(begin[0], begin[1], begin[2])
-        self._settings = dict(settings)
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_loaded": None}
 
     def __eq__(self, other: object) -> bool:
         """Whether both cases have the same results."""

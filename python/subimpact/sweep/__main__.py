@@ -75,18 +75,9 @@ def _run(options: argparse.Namespace, executor: Any) -> int:
     plan = Plan.from_file(options.plan)
     out = options.out or options.plan.rsplit("/", 1)[-1].removesuffix(".toml") + "-sweep"
     display = Display(options.quiet, "cases")
+    chosen = {name: getattr(options, name) for name in ("workers", "memory", "only", "retry", "merge")}
     try:
-        done = sweep(
-            plan,
-            out=out,
-            workers=options.workers,
-            memory=options.memory,
-            executor=executor,
-            only=options.only,
-            retry=options.retry,
-            merge=options.merge,
-            progress=display,
-        )
+        done = sweep(plan, out=out, executor=executor, progress=display, **chosen)
     finally:
         display.end()
     if options.hdf5:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from hashlib import sha256
@@ -297,7 +297,8 @@ def _parse(text: str) -> dict[str, Any]:
     return tables
 
 
-_TABLES = ("case", "set", "axes", "together", "scatter", "samples", "seed", "error_bars", "timeout", "distribution")
+_OTHERS = ("samples", "seed", "error_bars", "timeout", "distribution")
+_TABLES = ("case", "set", "axes", "together", "scatter", *_OTHERS)
 
 
 def _plan_of(tables: dict[str, Any], directory: Path) -> Plan:
@@ -309,9 +310,7 @@ def _plan_of(tables: dict[str, Any], directory: Path) -> Plan:
     case = Case.from_file(directory / tables["case"])
     for key, value in flat(_table(tables, "set")).items():
         case[key] = value
-    axes: dict[str | tuple[str, ...], Iterable[Any]] = {}
-    for key, values in _lists(_table(tables, "axes")).items():
-        axes[key] = values
+    axes: dict[Any, Iterable[Any]] = {**_lists(_table(tables, "axes"))}
     for group in _groups(tables):
         lists = _lists(group)
         lengths = {key: len(values) for key, values in lists.items()}
@@ -320,16 +319,10 @@ def _plan_of(tables: dict[str, Any], directory: Path) -> Plan:
         if tuple(lists) in axes:
             raise PlanError(f"two [[together]] have {', '.join(lists)}; give their values in one of them")
         axes[tuple(lists)] = zip(*lists.values())
-    return Plan(
-        case,
-        axes,
-        scatter=flat(_table(tables, "scatter")) if "scatter" in tables else None,
-        samples=tables.get("samples"),
-        seed=tables.get("seed", 1),
-        error_bars=tables.get("error_bars"),
-        timeout=tables.get("timeout"),
-        distribution=tables.get("distribution", "normal"),
-    )
+    others = {name: tables[name] for name in _OTHERS if name in tables}
+    if "scatter" in tables:
+        others["scatter"] = flat(_table(tables, "scatter"))
+    return Plan(case, axes, **others)
 
 
 def _table(tables: Mapping[str, Any], name: str) -> Mapping[str, Any]:
@@ -346,42 +339,17 @@ def _groups(tables: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     return groups
 
 
-def _lists(tables: Mapping[str, Any], prefix: str = "") -> dict[str, list[Any] | _Spaced]:
+def _lists(tables: Mapping[str, Any]) -> dict[str, list[Any]]:
     """The lists of values by keys with dots; {from, to, n} stands for a list."""
-    if prefix.count(".") > DEEPEST:
-        raise PlanError(_TOO_DEEP)
-    lists: dict[str, list[Any] | _Spaced] = {}
-    for name, value in tables.items():
-        key = prefix + name
-        if isinstance(value, list):
-            lists[key] = value
-        elif isinstance(value, Mapping) and "from" in value:
-            lists[key] = _range(key, value)
-        elif isinstance(value, Mapping):
-            lists.update(_lists(value, key + "."))
-        else:
+    lists = {}
+    for key, value in flat(tables, value_with="from").items():
+        lists[key] = _range(key, value) if isinstance(value, Mapping) else value
+        if not isinstance(value, (list, Mapping)):
             raise PlanError(f"{key} is {value!r}; allowed: a list, or {{ from, to, n }}")
     return lists
 
 
-@dataclass(frozen=True)
-class _Spaced:
-    """Values from `first` to `last`, which take no memory before they are asked for."""
-
-    first: float
-    last: float
-    n: int
-    spacing: str
-
-    def __len__(self) -> int:
-        return self.n
-
-    def __iter__(self) -> Iterator[float]:
-        ends = self.first, self.last, self.n
-        yield from (np.geomspace(*ends) if self.spacing == "log" else np.linspace(*ends)).tolist()
-
-
-def _range(key: str, values: Mapping[str, Any]) -> _Spaced:
+def _range(key: str, values: Mapping[str, Any]) -> list[float]:
     allowed = '{ from = 2, to = 16, n = 50 }, with spacing = "log" for equal ratios'
     try:
         first, last, n = float(values["from"]), float(values["to"]), values["n"]
@@ -394,9 +362,10 @@ def _range(key: str, values: Mapping[str, Any]) -> _Spaced:
         raise PlanError(f"{key} is {dict(values)}; allowed: {allowed}")
     if n > MOST_VALUES:
         raise PlanError(f"{key} has n = {n}; allowed: up to {MOST_VALUES} values; {_SPLIT}")
-    return _Spaced(first, last, n, spacing)
+    return spaced(first, last, n, spacing)
 
 
 def spaced(first: float, last: float, n: int, spacing: str = "linear") -> list[float]:
     """n values from `first` to `last`, both included, at equal distances or ("log") ratios."""
-    return list(_Spaced(first, last, n, spacing))
+    values: list[float] = (np.geomspace(first, last, n) if spacing == "log" else np.linspace(first, last, n)).tolist()
+    return values

@@ -7,6 +7,7 @@ import os
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -29,23 +30,20 @@ RETRIED = ("timed_out", "crashed", "out_of_memory")
 Progress = Callable[[int, int], object]
 
 
+@dataclass(repr=False, eq=False)
 class Sweep:
     """The results of a sweep: the files in its directory."""
 
-    def __init__(
-        self,
-        plan: Plan,
-        directory: Path,
-        outcomes: Mapping[str, int],
-        notes: list[str],
-        temporary: tempfile.TemporaryDirectory[str] | None = None,
-    ) -> None:
-        self._temporary = temporary
-        self.plan = plan
-        self.directory = directory  #: of sweep.rows, runs.csv, sub_impacts.csv and base.toml, the case that the keys change
-        self.outcomes = dict(outcomes)  #: how many cases have each outcome
-        self.n_missing = len(plan) - sum(outcomes.values())  #: cases that have no row yet
-        self.notes = notes  #: messages for the user
+    plan: Plan
+    directory: Path  #: of sweep.rows, runs.csv, sub_impacts.csv and base.toml, the case that the keys change
+    outcomes: dict[str, int]  #: how many cases have each outcome
+    notes: list[str]  #: messages for the user
+    _temporary: tempfile.TemporaryDirectory[str] | None = None
+
+    @property
+    def n_missing(self) -> int:
+        """Cases that have no row yet."""
+        return len(self.plan) - sum(self.outcomes.values())
 
     @cached_property
     def runs(self) -> Any:
@@ -72,35 +70,33 @@ class Sweep:
         return f"<Sweep of {len(self.plan)} cases in {self.directory}{missing}>"
 
 
+@dataclass
 class _Sink:
     """Collects rows and stores them twice per second."""
 
-    def __init__(
-        self, plan: Plan, store: Store, identities: dict[int, str], n_done: int, n_all: int, progress: Progress | None
-    ) -> None:
-        self._plan = plan
-        self._store = store
-        self._identities = identities
-        self._rows: list[Row] = []
-        self._last = time.monotonic()
-        self._n_done = n_done
-        self._n_all = n_all
-        self._progress = progress
+    plan: Plan
+    store: Store
+    identities: dict[int, str]
+    n_done: int
+    n_all: int
+    progress: Progress | None
+    rows: list[Row] = field(default_factory=list)
+    last: float = field(default_factory=time.monotonic)
 
     def __call__(self, rows: dict[int, Row]) -> None:
-        self._identities.update((number, row.identity) for number, row in rows.items())
-        self._rows += [row._replace(place=self._plan.place(number)) for number, row in rows.items()]
-        self._n_done += len(rows)
-        if time.monotonic() - self._last >= _SECONDS_BETWEEN_COMMITS:
+        self.identities.update((number, row.identity) for number, row in rows.items())
+        self.rows += [row._replace(place=self.plan.place(number)) for number, row in rows.items()]
+        self.n_done += len(rows)
+        if time.monotonic() - self.last >= _SECONDS_BETWEEN_COMMITS:
             self.flush()
 
     def flush(self) -> None:
-        if self._rows:
-            self._store.add(self._rows)
-            self._rows = []
-        self._last = time.monotonic()
-        if self._progress is not None:
-            self._progress(self._n_done, self._n_all)
+        if self.rows:
+            self.store.add(self.rows)
+            self.rows = []
+        self.last = time.monotonic()
+        if self.progress is not None:
+            self.progress(self.n_done, self.n_all)
 
 
 def _has_equal_cases(plan: Plan) -> bool:
@@ -248,4 +244,4 @@ def sweep(
             interruption.hold()
             sink.flush()
             outcomes = write_tables(plan, identities, store)
-        return Sweep(plan, store.directory, outcomes, store.notes, temporary)
+        return Sweep(plan, store.directory, dict(outcomes), store.notes, temporary)
