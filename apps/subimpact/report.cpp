@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "case/refuse.h"
 #include "commands.h"
 #include "io/directory/listed_files.h"
+#include "simulate/settings/refuse.h"
 
 namespace subimpact::app {
 namespace {

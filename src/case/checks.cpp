@@ -9,7 +9,7 @@
 
 #include "case/meshes.h"
 #include "case/problem.h"
-#include "case/refuse.h"
+#include "simulate/settings/refuse.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "case/problem.h"
-#include "case/refuse.h"
 #include "model/mesh/cell_mesh.h"
 #include "model/mesh/hermite/hermite_mesh.h"
 #include "model/mesh/rigid_mesh.h"
 #include "model/mesh/shear/spectral_mesh.h"
 #include "model/mesh/shear/timoshenko_mesh.h"
+#include "simulate/settings/refuse.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {

@@ -8,11 +8,11 @@
 #include <stdexcept>
 
 #include "case/meshes.h"
-#include "case/refuse.h"
 #include "model/mesh/sprung_mesh.h"
 #include "numerics/units.h"
 #include "simulate/run_parts.h"
 #include "simulate/settings/methods.h"
+#include "simulate/settings/refuse.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {

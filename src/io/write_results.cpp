@@ -6,10 +6,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "case/refuse.h"
 #include "io/directory/listed_files.h"
 #include "io/records/run_record.h"
 #include "io/records/run_tables.h"
+#include "simulate/settings/refuse.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <span>
 #include <stdexcept>
+
+#include "subimpact/model/mesh/beam_mesh.h"
 
 namespace subimpact {
 
@@ -16,5 +19,9 @@ template <class... Values>
 void require(bool holds, fmt::format_string<const Values&...> broken, const Values&... values) {
   if (!holds) throw BrokenRule(fmt::format(broken, values...));
 }
+
+/// Throw BrokenRule for a functional, or a row of B, that `n` unknowns cannot have.
+void check_functional(const char* name, const SparseFunctional& functional, std::size_t n);
+void check_row(std::size_t section, std::size_t first, std::span<const double> row, std::size_t n);
 
 }  // namespace subimpact

@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "case/counted.h"
-#include "case/refuse.h"
 #include "io/directory/listed_files.h"
 #include "numerics/units.h"
 #include "report/study_columns.h"
+#include "simulate/settings/refuse.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"

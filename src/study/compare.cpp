@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "case/problem.h"
-#include "case/refuse.h"
+#include "simulate/settings/refuse.h"
 #include "study/method_choice.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/study/judgement/judgement.h"

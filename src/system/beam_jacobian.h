@@ -6,7 +6,7 @@
 
 #include "ode/second_order_ode.h"
 #include "subimpact/model/mesh/beam_mesh.h"
-#include "system/contact/lifting_support.h"
+#include "system/contact/contact_state.h"
 
 namespace subimpact {
 

@@ -15,7 +15,6 @@
 #include "subimpact/model/scene.h"
 #include "system/beam_jacobian.h"
 #include "system/contact/contact_state.h"
-#include "system/contact/lifting_support.h"
 #include "system/loads.h"
 
 namespace subimpact {

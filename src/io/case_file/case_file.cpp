@@ -18,8 +18,8 @@
 #include "case/keys/slips.h"
 #include "case/keys/units.h"
 #include "case/meshes.h"
-#include "case/refuse.h"
 #include "io/case_file/toml_nodes.h"
+#include "simulate/settings/refuse.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {

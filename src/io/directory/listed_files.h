@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "case/refuse.h"
+#include "simulate/settings/refuse.h"
 
 namespace subimpact {
 

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "case/refuse.h"
 #include "io/directory/listed_files.h"
+#include "simulate/settings/refuse.h"
 
 namespace subimpact {
 namespace {

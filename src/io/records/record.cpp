@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "case/keys/units.h"
-#include "case/refuse.h"
+#include "simulate/settings/refuse.h"
 
 namespace subimpact {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "model/mesh/mesh_rules.h"
+#include "model/rules.h"
 
 namespace subimpact {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/mesh/mesh_rules.h"
+#include "model/rules.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "model/mesh/hermite/hermite_mesh.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include "model/mesh/modes.h"
 #include "numerics/bracketed_root.h"
+#include "numerics/dense.h"
 #include "numerics/gauss.h"
 
 namespace subimpact {
@@ -14,27 +16,106 @@ namespace subimpact {
 constexpr std::size_t most_in_modes = 2000;  // shapes take n^2 numbers
 constexpr double bound_tolerance = 1e-5;     // of the highest squared frequency
 
-HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent)
-    : HermiteMesh(beam, position,
-                  HermiteNodes(beam, position, n_elements, extent == Extent::half)) {}
+using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
-HermiteMesh::HermiteMesh(const Beam& beam, double position, HermiteNodes nodes)
-    : BeamMesh(nodes.n_unknowns, 3, nodes.half),
-      nodes_(std::move(nodes)),
+HermiteElement::HermiteElement(double a, double h)
+    : length(a),
+      slope_unit(h),
+      mean(1.0 / (a * h)),
+      of_displacements(6.0 / (a * a)),
+      of_slopes(3.0 / (a * h)) {}
+
+HermiteElement::Coefficients HermiteElement::curvature(double at) const {
+  return {at * of_displacements, -mean + at * of_slopes, -at * of_displacements,
+          mean + at * of_slopes};
+}
+
+HermiteElement::Coefficients HermiteElement::displacement(double z) const {
+  const double s = length / slope_unit;
+  return {(1.0 - z) * (1.0 - z) * (1.0 + 2.0 * z), s * z * (1.0 - z) * (1.0 - z),
+          z * z * (3.0 - 2.0 * z), -s * z * z * (1.0 - z)};
+}
+
+HermiteElement::Coefficients HermiteElement::slope(double z) const {
+  const double of_difference = 6.0 * z * (1.0 - z) / length;
+  return {-of_difference, (1.0 - z) * (1.0 - 3.0 * z) / slope_unit, of_difference,
+          z * (3.0 * z - 2.0) / slope_unit};
+}
+
+HermiteElement::Matrix HermiteElement::mass(double mass_per_length, double rotary_inertia) const {
+  const double s = length / slope_unit;  // unknown h t contributes t = (h t)/h
+  Eigen::Matrix4d translation;
+  translation << 156.0, 22.0, 54.0, -13.0,  //
+      22.0, 4.0, 13.0, -3.0,                //
+      54.0, 13.0, 156.0, -22.0,             //
+      -13.0, -3.0, -22.0, 4.0;
+  Eigen::Matrix4d rotation;
+  rotation << 36.0, 3.0, -36.0, 3.0,  //
+      3.0, 4.0, -3.0, -1.0,           //
+      -36.0, -3.0, 36.0, -3.0,        //
+      3.0, -1.0, -3.0, 4.0;
+  const Eigen::Vector4d unit(1.0, s, 1.0, s);
+  Matrix result;
+  Eigen::Map<Matrix4>(result[0].data()) = unit.asDiagonal() *
+                                          (mass_per_length * length / 420.0 * translation +
+                                           rotary_inertia / (30.0 * length) * rotation) *
+                                          unit.asDiagonal();
+  return result;
+}
+
+HermiteElement::Coefficients HermiteElement::momentum(double mass_per_length) const {
+  const double share = mass_per_length * length;
+  const double lever = length / (12.0 * slope_unit);
+  return {0.5 * share, lever * share, 0.5 * share, -lever * share};
+}
+
+HermiteElement::Coefficients HermiteElement::moment(double mass_per_length, double rotary_inertia,
+                                                    double left) const {
+  const double s = length / slope_unit;
+  const double share = mass_per_length * length;
+  return {share * (left / 2.0 + 3.0 * length / 20.0) - rotary_inertia,
+          share * s * (left / 12.0 + length / 30.0),
+          share * (left / 2.0 + 7.0 * length / 20.0) + rotary_inertia,
+          -share * s * (left / 12.0 + length / 20.0)};
+}
+
+double HermiteElement::highest_frequency_squared(double bending_stiffness,
+                                                 const Matrix& mass) const {
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(4, 4);
+  for (const double at : eta) {
+    const Eigen::Vector4d row(curvature(at).data());
+    stiffness += bending_stiffness * 0.5 * length * row * row.transpose();
+  }
+  return largest_eigenvalue(stiffness, Eigen::Map<const Matrix4>(mass[0].data()));
+}
+
+HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent)
+    : ElementMesh(beam, {beam, position, n_elements, fewest_elements, extent == Extent::half, 1}, 1,
+                  3),
       slope_unit_(beam.length / static_cast<double>(nodes_.n_elements_whole())),
       mass_per_length_(beam.mass_per_length()),
       rotary_inertia_(beam.rotary_inertia()) {
-  struck_point_.terms = {{nodes_.struck_node().displacement, 1.0}};
-  if (nodes_.ends[0] == EndSupport::free) first_end_.terms = {{0, 1.0}};
-  beam_mass_ = beam.mass();
-  if (beam.is_free()) {
-    translation_.assign(n_unknowns(), 0.0);
-    for (const HermiteNodes::Node& node : nodes_.nodes) translation_[node.displacement] = 1.0;
-  }
   assemble_mass();
   if (!symmetric()) assemble_moment();
   gather_elements();
   struck_section_ = nearest_section(position * beam.length);
+}
+
+std::array<std::size_t, 4> HermiteMesh::unknowns_of(std::size_t element) const {
+  const ElementNodes::Node& left = nodes_.nodes[element];
+  const ElementNodes::Node& right = nodes_.nodes[element + 1];
+  return {left.displacement, left.rotation, right.displacement, right.rotation};
+}
+
+std::pair<std::size_t, double> HermiteMesh::element_at(double x) const {
+  constexpr double at_node = 1e-9;  // distance in units of an element's length
+  double left = 0.0;
+  std::size_t e = 0;
+  for (; e + 1 < nodes_.n_elements() && x >= left + (1.0 - at_node) * nodes_.lengths[e]; ++e) {
+    left += nodes_.lengths[e];
+  }
+  const double z = (x - left) / nodes_.lengths[e];
+  return {e, z < at_node ? 0.0 : z > 1.0 - at_node ? 1.0 : z};
 }
 
 HermiteElement HermiteMesh::element(std::size_t e) const {
@@ -44,7 +125,7 @@ HermiteElement HermiteMesh::element(std::size_t e) const {
 void HermiteMesh::assemble_mass() {
   momentum_functional_.assign(n_unknowns(), 0.0);
   for (std::size_t e = 0; e < nodes_.n_elements(); ++e) {
-    const auto unknowns = nodes_.unknowns_of(e);
+    const auto unknowns = unknowns_of(e);
     const HermiteElement::Matrix mass = element(e).mass(mass_per_length_, rotary_inertia_);
     of_element(e, element(e).momentum(copies() * mass_per_length_))
         .add_to(momentum_functional_, 1.0);
@@ -70,7 +151,7 @@ void HermiteMesh::assemble_moment() {
 void HermiteMesh::gather_elements() {
   double left = 0.0;
   for (std::size_t e = 0; e < nodes_.n_elements(); ++e) {
-    const auto unknowns = nodes_.unknowns_of(e);
+    const auto unknowns = unknowns_of(e);
     const double length = nodes_.lengths[e];
     if (std::ranges::count(unknowns, none) > 0) {
       singles_.push_back({unknowns, positions_.size(), element(e)});
@@ -86,7 +167,7 @@ void HermiteMesh::gather_elements() {
 
 void HermiteMesh::place_sections(std::size_t e, double left) {
   const HermiteElement f = element(e);
-  const auto unknowns = nodes_.unknowns_of(e);
+  const auto unknowns = unknowns_of(e);
   for (const double eta : f.eta) {
     positions_.push_back(left + 0.5 * (1.0 + eta) * f.length);
     weights_.push_back(copies() * 0.5 * f.length);
@@ -144,7 +225,7 @@ void HermiteMesh::bending_forces(std::span<const double> moments, std::span<doub
 
 SparseFunctional HermiteMesh::of_element(std::size_t element,
                                          const HermiteElement::Coefficients& coefficients) const {
-  const auto unknowns = nodes_.unknowns_of(element);
+  const auto unknowns = unknowns_of(element);
   SparseFunctional functional;
   for (std::size_t i = 0; i < 4; ++i) {
     if (unknowns[i] == none || coefficients[i] == 0.0) continue;
@@ -154,12 +235,12 @@ SparseFunctional HermiteMesh::of_element(std::size_t element,
 }
 
 std::optional<SparseFunctional> HermiteMesh::displacement_at(double x) const {
-  const auto [e, z] = nodes_.element_at(x);
+  const auto [e, z] = element_at(x);
   return of_element(e, element(e).displacement(z));
 }
 
 std::optional<SparseFunctional> HermiteMesh::rotation_at(double x) const {
-  const auto [e, z] = nodes_.element_at(x);
+  const auto [e, z] = element_at(x);
   if (symmetric() && e + 1 == nodes_.n_elements() && z == 1.0) return SparseFunctional{};
   return of_element(e, element(e).slope(z));
 }
@@ -219,9 +300,6 @@ NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
   return *std::move(modes);
 }
 
-std::string HermiteMesh::description() const {
-  return std::to_string(nodes_.n_elements_whole()) + " Hermite elements of 2 sections" +
-         (symmetric() ? ", one half by symmetry" : "");
-}
+std::string HermiteMesh::description() const { return described("Hermite elements of 2 sections"); }
 
 }  // namespace subimpact

@@ -55,21 +55,6 @@ double lagrange(std::size_t a, double x) {
   return value;
 }
 
-std::size_t elements_before(double position, std::size_t n_elements) {
-  return static_cast<std::size_t>(std::clamp(
-      std::lround(position * static_cast<double>(n_elements)), 0L, static_cast<long>(n_elements)));
-}
-
-std::size_t held_by(EndSupport end) {
-  return end == EndSupport::free ? 0 : end == EndSupport::pinned ? 1 : 2;
-}
-
-std::size_t count_unknowns(const Beam& beam, std::size_t n_elements, bool half) {
-  const std::size_t kept = half ? n_elements / 2 : n_elements;
-  return 2 * (SpectralMesh::degree * kept + 1) - held_by(beam.ends[0]) -
-         (half ? 1 : held_by(beam.ends[1]));
-}
-
 }  // namespace
 
 SpectralMesh::Strains::Strains(double length, double gyration, double shear_stiffness,
@@ -92,66 +77,32 @@ SpectralMesh::Strains::Strains(double length, double gyration, double shear_stif
 }
 
 SpectralMesh::SpectralMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent)
-    : BeamMesh(count_unknowns(beam, n_elements, extent == Extent::half), 0, extent == Extent::half),
-      ends_(beam.ends),
-      n_elements_(n_elements),
-      n_before_(elements_before(position, n_elements)),
+    : ElementMesh(beam,
+                  {beam, position, n_elements, fewest_elements, extent == Extent::half, degree},
+                  degree, 0),
       gyration_(beam.radius_of_gyration()),
       mass_per_length_(beam.mass_per_length()),
       shear_stiffness_per_length_(beam.shear_stiffness()) {
-  if (n_elements < fewest_elements) {
-    throw std::invalid_argument("spectral mesh: at least 2 elements are needed");
-  }
   if (!beam.shears()) throw std::invalid_argument("spectral mesh: the beam's theory has no shear");
-  if (symmetric() && (n_elements % 2 == 1 || position != 0.5 || beam.ends[0] != beam.ends[1])) {
-    throw std::invalid_argument(
-        "spectral mesh: a half model needs an even number of elements, struck at 0.5, and ends "
-        "alike");
-  }
-  place_elements(beam, position);
-  beam_mass_ = beam.mass();
+  place_elements();
   assemble_mass(beam);
   assemble_shear();
   place_sections();
 }
 
-void SpectralMesh::place_elements(const Beam& beam, double position) {
-  const std::size_t n_kept = symmetric() ? n_elements_ / 2 : n_elements_;
-  const std::size_t last_node = degree * n_kept;
-  std::vector<std::array<std::size_t, 2>> of_node(last_node + 1);
-  std::size_t next = 0;
-  for (std::size_t node = 0; node <= last_node; ++node) {
-    const bool is_mirror = symmetric() && node == last_node;
-    EndSupport support = EndSupport::free;
-    if (node == 0) support = beam.ends[0];
-    if (node == last_node && !symmetric()) support = beam.ends[1];
-    of_node[node][0] = support == EndSupport::free ? next++ : held;
-    of_node[node][1] = support == EndSupport::clamped || is_mirror ? held : next++;
+void SpectralMesh::place_elements() {
+  for (const double length : {nodes_.lengths.front(), nodes_.lengths.back()}) {
+    strains_.emplace_back(length, gyration_, shear_stiffness_per_length_, copies());
   }
-  const auto length_of = [&](double part, std::size_t n) {
-    return part * beam.length / static_cast<double>(std::max<std::size_t>(n, 1));
-  };
-  const double before = length_of(position, n_before_);
-  const double after = length_of(1.0 - position, n_elements_ - n_before_);
-  for (const double element : {before, after}) {
-    strains_.emplace_back(element, gyration_, shear_stiffness_per_length_, copies());
-  }
-  for (std::size_t e = 0; e < n_kept; ++e) {
-    const std::size_t side = e < n_before_ ? 0 : 1;
-    Element element{side == 0 ? before : after, side, {}, true};
+  for (std::size_t e = 0; e < nodes_.n_elements(); ++e) {
+    Element element{nodes_.lengths[e], e < nodes_.n_before ? 0u : 1u, {}, true};
     for (std::size_t a = 0; a < n_nodes; ++a) {
-      element.unknowns[2 * a] = of_node[degree * e + a][0];
-      element.unknowns[2 * a + 1] = of_node[degree * e + a][1];
+      const ElementNodes::Node& node = nodes_.nodes[degree * e + a];
+      element.unknowns[2 * a] = node.displacement;
+      element.unknowns[2 * a + 1] = node.rotation;
     }
-    element.is_contiguous = std::ranges::count(element.unknowns, held) == 0;
+    element.is_contiguous = std::ranges::count(element.unknowns, none) == 0;
     elements_.push_back(element);
-  }
-  const std::size_t struck_node = degree * n_before_;
-  if (of_node[struck_node][0] != held) struck_point_.terms = {{of_node[struck_node][0], 1.0}};
-  if (of_node[0][0] != held) first_end_.terms = {{of_node[0][0], 1.0}};
-  if (beam.is_free()) {
-    translation_.assign(n_unknowns(), 0.0);
-    for (const auto& node : of_node) translation_[node[0]] = 1.0;
   }
 }
 
@@ -164,7 +115,7 @@ void SpectralMesh::assemble_mass(const Beam& beam) {
   for (const Element& element : elements_) {
     for (std::size_t i = 0; i < element.unknowns.size(); ++i) {
       const std::size_t unknown = element.unknowns[i];
-      if (unknown == held) continue;
+      if (unknown == none) continue;
       const double mass = copies() * per_length[i % 2] * element.length * node_weights[i / 2];
       mass_.at(unknown, unknown) += mass;
       if (i % 2 == 0) momentum_functional_[unknown] += mass;
@@ -185,7 +136,7 @@ void SpectralMesh::assemble_shear() {
       for (std::size_t i = 0; i < element.unknowns.size(); ++i) {
         for (std::size_t j = i; j < element.unknowns.size(); ++j) {
           const std::size_t from = element.unknowns[i], to = element.unknowns[j];
-          if (from != held && to != held) shear_stiffness_.at(from, to) += weight * row[i] * row[j];
+          if (from != none && to != none) shear_stiffness_.at(from, to) += weight * row[i] * row[j];
         }
       }
     }
@@ -195,9 +146,9 @@ void SpectralMesh::assemble_shear() {
 void SpectralMesh::place_sections() {
   double start = 0.0;
   double struck = 0.0;
-  for (std::size_t e = 0; e < n_before_; ++e) struck += elements_[e].length;
+  for (std::size_t e = 0; e < nodes_.n_before; ++e) struck += elements_[e].length;
   for (const Element& element : elements_) {
-    const auto kept = std::ranges::count_if(element.unknowns, [](auto u) { return u != held; });
+    const auto kept = std::ranges::count_if(element.unknowns, [](auto u) { return u != none; });
     const std::size_t first = *std::ranges::min_element(element.unknowns);
     for (std::size_t q = 0; q < n_points; ++q) {
       positions_.push_back(start + gauss<n_points>.points[q] * element.length);
@@ -205,7 +156,7 @@ void SpectralMesh::place_sections() {
       std::vector<double> row(static_cast<std::size_t>(kept), 0.0);
       for (std::size_t a = 0; a < n_nodes; ++a) {
         const std::size_t turn = element.unknowns[2 * a + 1];
-        if (turn != held) row[turn - first] = shapes.slope[q][a] / (gyration_ * element.length);
+        if (turn != none) row[turn - first] = shapes.slope[q][a] / (gyration_ * element.length);
       }
       add_stencil(first, row);
     }
@@ -227,7 +178,7 @@ SparseFunctional SpectralMesh::interpolated(double x, std::size_t which) const {
   for (std::size_t a = 0; a < n_nodes; ++a) {
     const double value = lagrange(a, place);
     const std::size_t unknown = element.unknowns[2 * a + which];
-    if (unknown != held && std::abs(value) > rounding) functional.terms.push_back({unknown, value});
+    if (unknown != none && std::abs(value) > rounding) functional.terms.push_back({unknown, value});
   }
   return functional;
 }
@@ -249,7 +200,7 @@ std::vector<BeamMesh::Slope> SpectralMesh::slopes() const {
       all.push_back({copies() * gauss<n_points>.weights[q] * element.length, {}});
       for (std::size_t a = 0; a < n_nodes; ++a) {
         const std::size_t unknown = element.unknowns[2 * a];
-        if (unknown == held) continue;
+        if (unknown == none) continue;
         all.back().value.terms.push_back({unknown, shapes.slope[q][a] / element.length});
       }
     }
@@ -260,7 +211,7 @@ std::vector<BeamMesh::Slope> SpectralMesh::slopes() const {
 const double* SpectralMesh::read(const Element& element, const double* unknowns, Values& values) {
   if (element.is_contiguous) return unknowns + element.unknowns[0];
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = element.unknowns[i] == held ? 0.0 : unknowns[element.unknowns[i]];
+    values[i] = element.unknowns[i] == none ? 0.0 : unknowns[element.unknowns[i]];
   }
   return values.data();
 }
@@ -286,7 +237,7 @@ void SpectralMesh::add_stresses(StressesOf stresses_of, double* forces) const {
     if (!element.is_contiguous) {
       add_shared();
       for (std::size_t i = 0; i < element.unknowns.size(); ++i) {
-        if (element.unknowns[i] == held) continue;
+        if (element.unknowns[i] == none) continue;
         for (std::size_t q = first; q < end; ++q) {
           forces[element.unknowns[i]] -= stresses[q] * strains.rows[q][i];
         }
@@ -416,9 +367,6 @@ double SpectralMesh::highest_frequency(double bending_stiffness) const {
   return std::sqrt(highest);
 }
 
-std::string SpectralMesh::description() const {
-  return std::to_string(n_elements_) + " spectral elements" +
-         (symmetric() ? ", one half by symmetry" : "");
-}
+std::string SpectralMesh::description() const { return described("spectral elements"); }
 
 }  // namespace subimpact

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "model/mesh/element_mesh.h"
 #include "numerics/lanes.h"
-#include "subimpact/model/mesh/beam_mesh.h"
 
 namespace subimpact {
 
@@ -17,7 +17,7 @@ namespace subimpact {
 ///
 /// Source: A. T. Patera, J. Comput. Phys. 54 (1984) 468, for the elements; O. C. Zienkiewicz et
 /// al., Int. J. Num. Meth. Eng. 3 (1971) 275, for the reduced integration.
-class SpectralMesh final : public BeamMesh {
+class SpectralMesh final : public ElementMesh {
  public:
   static constexpr std::size_t degree = 4;
   static constexpr std::size_t n_nodes = degree + 1;  // of an element
@@ -27,9 +27,8 @@ class SpectralMesh final : public BeamMesh {
   static constexpr std::array<double, n_nodes> node_weights = {
       1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 1.0 / 20.0};
 
-  /// `position` is the struck point as a fraction of the length. Throws std::invalid_argument for
-  /// too few elements, for a half model of an odd number of elements, of unlike ends or struck off
-  /// mid-span, and for a beam without shear.
+  /// `position` is the struck point as a fraction of the length. Throws std::invalid_argument as
+  /// ElementNodes does, and for a beam without shear.
   SpectralMesh(const Beam& beam, double position, std::size_t n_elements, Extent extent);
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
@@ -63,8 +62,7 @@ class SpectralMesh final : public BeamMesh {
     std::array<double, n_lanes> weights;
   };
 
-  // Indices of an element's unknowns, node by node: w, r phi; `held` for those left out.
-  static constexpr std::size_t held = static_cast<std::size_t>(-1);
+  // Indices of an element's unknowns, node by node: w, r phi; `none` for those left out.
   struct Element {
     double length;     // m
     std::size_t side;  // of the strike
@@ -82,16 +80,13 @@ class SpectralMesh final : public BeamMesh {
   // Fills all eight: put_bending() comes after it.
   void put_shear(const Element& element, const double* unknowns, double* stresses) const;
 
-  void place_elements(const Beam& beam, double position);
+  void place_elements();
   void assemble_mass(const Beam& beam);
   void assemble_shear();
   void place_sections();
   // Lagrange's polynomials at x for the displacements (0) or the rotations r phi (1).
   SparseFunctional interpolated(double x, std::size_t which) const;
 
-  std::array<EndSupport, 2> ends_;
-  std::size_t n_elements_;  // of the whole beam
-  std::size_t n_before_;    // the strike
   std::vector<Element> elements_;
   std::vector<Strains> strains_;  // by side
   double gyration_, mass_per_length_;

@@ -288,7 +288,7 @@ std::optional<NaturalModes> modes_of(const Chain& chain, bool half, double bendi
 
 bool SpectralMesh::has_closed_modes() const {
   constexpr double rounding = 1e-12;
-  return ends_[0] == ends_[1] && ends_[0] != EndSupport::clamped &&
+  return nodes_.ends[0] == nodes_.ends[1] && nodes_.ends[0] != EndSupport::clamped &&
          std::abs(elements_.back().length / elements_.front().length - 1.0) < rounding;
 }
 
@@ -301,10 +301,10 @@ double SpectralMesh::closed_modes_work() const {
 NaturalModes SpectralMesh::natural_modes(double bending_stiffness) const {
   if (!has_closed_modes()) return dense_natural_modes(*this, bending_stiffness);
   Chain chain;
-  chain.n_elements = n_elements_;
+  chain.n_elements = nodes_.n_elements_whole();
   chain.length = elements_.front().length;
   chain.gyration = gyration_;
-  chain.pinned = ends_[0] == EndSupport::pinned;
+  chain.pinned = nodes_.ends[0] == EndSupport::pinned;
   for (std::size_t q = 0; q < n_own; ++q) {
     const double weight = chain.length * gauss<n_points>.weights[q % n_points];
     const double stiffness = q < of_bending ? shear_stiffness_per_length_ : bending_stiffness;
@@ -325,13 +325,14 @@ NaturalModes SpectralMesh::natural_modes(double bending_stiffness) const {
       const bool is_last = e == n_kept;
       const std::size_t unknown = !is_last ? elements_[e].unknowns[i]
                                   : i < 2  ? elements_.back().unknowns[n_own + i]
-                                           : held;
+                                           : none;
       chain.unknowns[e][i] = index(unknown);
-      if (unknown == held) continue;
+      if (unknown == none) continue;
       const double from_first = static_cast<double>(e) + nodes[i / 2];
       const Eigen::Index k = index(unknown);
       chain.mass(k) = mass_.at(unknown, unknown);
-      chain.from_middle(k) = chain.length * (from_first - 0.5 * static_cast<double>(n_elements_));
+      chain.from_middle(k) =
+          chain.length * (from_first - 0.5 * static_cast<double>(nodes_.n_elements_whole()));
       chain.translation(k) = i % 2 == 0 ? 1.0 : 0.0;
     }
   }
