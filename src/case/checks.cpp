@@ -161,12 +161,10 @@ void check_rows(const Case& input, const char* key, double interval, double rows
                 const std::string& what, const char* remedy) {
   const double rows = input.end_time / interval * rows_each;
   if (interval == 0.0 || rows <= most) return;
-  const std::string doubt = doubtful_unit(input, "time.end");
   refuse(key,
          "is {} s, which gives {:.2g} {}; allowed: at most {:.0e} rows, so {:.2g} s or more, or 0 "
-         "for none; use a longer interval{}{}",
-         interval, rows, what, most, input.end_time * rows_each / most, remedy,
-         doubt.empty() ? doubt : "; " + doubt);
+         "for none; use a longer interval{}",
+         interval, rows, what, most, input.end_time * rows_each / most, remedy);
 }
 
 void check_output(const Case& input) {

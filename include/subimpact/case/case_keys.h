@@ -156,8 +156,6 @@ std::string_view to_string(EventHandling events);
 /// or stresses in MPa: one sentence per key, with the value, what makes it doubtful and what to
 /// write if that unit was meant. Empty for every plausible scene; a doubtful one can still be run.
 std::vector<std::string> doubtful_units(const Case& input);
-/// The sentence about the number of one key; empty if its unit is not doubtful.
-std::string doubtful_unit(const Case& input, std::string_view key);
 
 /// A warning: what it is about, in a word, and the sentence.
 struct Beyond {

@@ -20,6 +20,7 @@ namespace {
 constexpr double softest = 1e6;            // Pa: soft rubber
 constexpr double stiffest = 2e12;          // Pa: diamond has 1.2e12
 constexpr double weakest = 1e4;            // Pa: lead yields at some 1e7
+constexpr double strongest = 2e10;         // Pa
 constexpr double smallest_yield = 1e-6;    // strain at yield: soft metals have 1e-5
 constexpr double lightest = 25.0;          // kg/m3: packing foam
 constexpr double largest_yield = 0.05;     // yield stress over Young's modulus
@@ -35,166 +36,119 @@ constexpr double long_run = 0.5;           // s
 constexpr double heavy_striker = 100.0;    // kg
 constexpr double heaviest_in_grams = 1e4;  // kg: heavier strikers are not given in g
 constexpr double most_beam_masses = 500.0;
-constexpr double one_metre = 1.0;
 
 struct OtherUnit {
   const char* name;
   double factor;  ///< to the case file's unit
 };
 
-// "; if MPa was meant, write 7.196e+10", for each unit in which the value is usual: `low` to
-// `high`.
-std::string proposal(double value, std::initializer_list<OtherUnit> units, double low,
-                     double high) {
-  std::string text;
-  for (const OtherUnit& unit : units) {
-    const double meant = value * unit.factor;
-    if (meant < low || meant > high) continue;
-    text += text.empty() ? fmt::format("; if {} was meant, write {:.6g}", unit.name, meant)
-                         : fmt::format(", if {} was, {:.6g}", unit.name, meant);
-  }
-  return text;
-}
-
 class Doubts {
  public:
-  explicit Doubts(const Case& input)
-      : case_(input), beam_(input.scene.beam), is_rigid_(input.model.mesh == MeshKind::rigid) {
-    if (!is_rigid_) {  // a rigid body may have any shape and mass
+  explicit Doubts(const Case& input) : case_(input), beam_(input.scene.beam) {
+    const bool is_rigid = input.model.mesh == MeshKind::rigid;
+    if (!is_rigid) {  // a rigid body may have any shape and mass
       lengths();
       times();
     }
-    materials();
-    striker();
+    materials(is_rigid);
+    striker(is_rigid);
   }
 
-  std::vector<std::pair<const char*, std::string>> found;  // by key
+  std::vector<std::string> found;
 
  private:
-  // "beam.length is 201 m", the reason and what to write if one of the units was meant.
-  void doubt(const char* name, const std::string& reason, std::initializer_list<OtherUnit> units,
-             double low = 0.0, double high = INFINITY) {
+  // "beam.length is 201 m", the reason, and what to write if a unit was meant in which the value is
+  // usual: from `low` to `high`.
+  template <class... Values>
+  void doubt(bool is_doubtful, const char* name, std::initializer_list<OtherUnit> units, double low,
+             double high, fmt::format_string<const Values&...> reason, const Values&... values) {
+    if (!is_doubtful) return;
     const CaseKey& key = *find_case_key(name);
     const double value = std::get<double>(*key.get(case_));
-    found.emplace_back(name, fmt::format("{} is {:.6g} {}{}{}", name, value, key.unit, reason,
-                                         proposal(value, units, low, high)));
-  }
-
-  // Doubts a length: out of proportion to another one, or one of lengths that are all doubtful.
-  void length(const char* key, double value, bool out_of_proportion, double other,
-              const char* other_name, bool because_of_all) {
-    if (out_of_proportion) {
-      doubt(key, fmt::format(", {:.3g} times the beam's {}", value / other, other_name),
-            {{"mm", 1e-3}});
-    } else if (because_of_all) {
-      doubt(key, ": " + size_and_mass(), {{"mm", 1e-3}});
+    std::string text = fmt::format("{} is {:.6g} {}", name, value, key.unit) +
+                       fmt::format(reason, values...),
+                proposal;
+    for (const OtherUnit& unit : units) {
+      const double meant = value * unit.factor;
+      if (meant < low || meant > high) continue;
+      proposal += proposal.empty()
+                      ? fmt::format("; if {} was meant, write {:.6g}", unit.name, meant)
+                      : fmt::format(", if {} was, {:.6g}", unit.name, meant);
     }
-  }
-
-  std::string size_and_mass() const {
-    const double mass = beam_.mass();
-    return fmt::format(
-        "a beam of {:.4g} m x {:.4g} m x {:.4g} m weighs {}", beam_.length,
-        beam_.outer_solid().width, beam_.height(),
-        mass >= 1e4 ? fmt::format("{:.0f} t", 1e-3 * mass) : fmt::format("{:.3g} kg", mass));
-  }
-
-  // The density is kept within usual values: lengths are not doubtful where it is wrong.
-  bool is_too_large() const {
-    const double volume = beam_.length * beam_.area();
-    return volume * std::clamp(beam_.density, 1e3, heaviest) > heaviest_beam;
+    found.push_back(text + proposal);
   }
 
   void lengths() {
     const double l = beam_.length, b = beam_.outer_solid().width, h = beam_.height();
-    const bool large = is_too_large();
-    const bool slender = h > 0.0 && l > most_slender * h;
-    const bool deep = h > l;
-    const bool wide = b > widest * l;
-    const bool any = large || l > longest || slender || deep || wide;
+    const double nose = case_.scene.striker.nose_radius.value_or(0.0), mass = beam_.mass();
+    // By a usual density: lengths are not doubtful where that is wrong.
+    const double usual_mass = l * beam_.area() * std::clamp(beam_.density, 1e3, heaviest);
+    const bool large = usual_mass > heaviest_beam;
+    const bool is_long = large || l > longest || (h > 0.0 && l > most_slender * h);
+    const bool wide = b > widest * l, deep = h > l;
+    const auto length = [&](const char* key, bool is_doubtful) {
+      doubt(is_doubtful, key, {{"mm", 1e-3}}, 0.0, INFINITY,
+            ": a beam of {:.4g} m x {:.4g} m x {:.4g} m weighs {}", l, b, h,
+            mass >= 1e4 ? fmt::format("{:.0f} t", 1e-3 * mass) : fmt::format("{:.3g} kg", mass));
+    };
     // Where one length seems to be in mm, another one above a metre is probably in mm too.
-    const auto doubtful_beside = [&](double value) { return any && value > one_metre; };
-    length("beam.length", l, slender, h, "thickness", large || l > longest);
-    if (!beam_.is_round()) {
-      length(width_key(beam_), b, wide, l, "length", large || doubtful_beside(b));
-    }
-    length(height_key(beam_), h, deep, l, "length", large || doubtful_beside(h));
-    const double nose = case_.scene.striker.nose_radius.value_or(0.0);
-    const bool blunt = nose > largest_nose * l && nose > one_metre;
-    length("striker.nose_radius", nose, blunt, l, "length", false);
-    if (!blunt && doubtful_beside(nose)) {
-      doubt("striker.nose_radius", ", like the lengths of the beam", {{"mm", 1e-3}});
-    }
+    const bool any = is_long || wide || deep;
+    length("beam.length", is_long);
+    length(width_key(beam_), !beam_.is_round() && (large || wide || (any && b > 1.0)));
+    length(height_key(beam_), large || deep || (any && h > 1.0));
+    length("striker.nose_radius", nose > 1.0 && (any || nose > largest_nose * l));
   }
 
   void times() {
     const double end = case_.end_time;
-    const auto longer_than_run = [&](const char* key, const std::optional<double>& time) {
-      if (!time || *time <= end) return;
-      doubt(key, ", longer than the whole run", {{"ms", 1e-3}, {"us", 1e-6}}, 0.0, 1e-2 * end);
-    };
-    longer_than_run("solver.step", case_.solver.step);
-    longer_than_run("accuracy.event_times", case_.accuracy.event_times);
+    const std::initializer_list<OtherUnit> units = {{"ms", 1e-3}, {"us", 1e-6}};
+    for (const auto& [key, time] : {std::pair("solver.step", case_.solver.step),
+                                    {"accuracy.event_times", case_.accuracy.event_times}}) {
+      doubt(time > end, key, units, 0.0, 1e-2 * end, ", longer than the whole run");
+    }
     if (case_.stop != StopRule::end_time || end <= long_run) return;  // only a limit, or short
     const double period = 2.0 * M_PI / flexural_frequencies(beam_, 1).front();
-    if (end <= most_periods * period) return;
-    doubt("time.end",
-          fmt::format(", {:.3g} periods of the beam's slowest vibration, {:.3g} s each",
-                      end / period, period),
-          {{"ms", 1e-3}, {"us", 1e-6}}, 1e-2 * period, most_periods * period);
+    doubt(end > most_periods * period, "time.end", units, 1e-2 * period, most_periods * period,
+          ", {:.3g} periods of the beam's slowest vibration, {:.3g} s each", end / period, period);
   }
 
-  void modulus(const char* key, double E) {
-    if (E == 0.0 || (E >= softest && E <= stiffest)) return;  // 0: a rigid plane
-    doubt(key,
-          E < softest ? ", softer than soft rubber (some 1e6 Pa)"
-                      : ", stiffer than diamond (1.2e12 Pa)",
-          {{"MPa", 1e6}, {"GPa", 1e9}, {"mPa", 1e-3}}, 1e8, stiffest);
-  }
-
-  void materials() {
+  void materials(bool is_rigid) {
     const double rho = beam_.density, E = beam_.youngs_modulus, Y = beam_.yield_stress;
-    if ((rho > 0.0 && rho < lightest) || (rho > heaviest && !is_rigid_)) {
-      doubt("beam.density",
-            rho < lightest ? ", lighter than packing foam (some 25 kg/m3)"
-                           : ", heavier than osmium (22600 kg/m3)",
-            {{"g/cm3", 1e3}, {"t/mm3", 1e12}, {"g/m3", 1e-3}}, 50.0, heaviest);
+    doubt((rho > 0.0 && rho < lightest) || (rho > heaviest && !is_rigid), "beam.density",
+          {{"g/cm3", 1e3}, {"t/mm3", 1e12}, {"g/m3", 1e-3}}, 50.0, heaviest,
+          ", not between packing foam (some 25 kg/m3) and osmium (22600 kg/m3)");
+    const double nose = case_.scene.contact.striker_modulus.value_or(0.0);
+    for (const auto& [key, modulus] :
+         {std::pair("beam.youngs_modulus", E), {"contact.striker_modulus", nose}}) {
+      const bool is_given = modulus > 0.0 && std::isfinite(modulus);  // 0: a rigid plane
+      doubt(is_given && (modulus < softest || modulus > stiffest), key,
+            {{"MPa", 1e6}, {"GPa", 1e9}, {"mPa", 1e-3}}, 1e8, stiffest,
+            ", not between soft rubber (some 1e6 Pa) and diamond (1.2e12 Pa)");
     }
-    modulus("beam.youngs_modulus", E);
-    const double striker = case_.scene.contact.striker_modulus.value_or(INFINITY);
-    if (std::isfinite(striker)) modulus("contact.striker_modulus", striker);
-    if (Y < weakest || (E <= stiffest && Y < smallest_yield * E)) {
-      doubt("beam.yield_stress",
-            Y < weakest ? std::string(", far weaker than lead (some 1e7 Pa)")
-                        : fmt::format(", reached at a strain of {:.1e} (metals: some 1e-3)", Y / E),
-            {{"MPa", 1e6}, {"GPa", 1e9}}, 1e6, 2e10);
-    } else if (std::isfinite(Y) && E >= softest && Y > largest_yield * E) {
-      doubt("beam.yield_stress",
-            fmt::format(", reached at a strain of {:.2g} (metals: some 1e-3){}", Y / E,
-                        Y > E ? "; are beam.youngs_modulus and beam.yield_stress swapped?" : ""),
-            {{"kPa", 1e-3}, {"Pa", 1e-6}}, 1e6, largest_yield * E);
-    }
+    const bool is_weak = Y < weakest || (E <= stiffest && Y < smallest_yield * E);
+    const bool is_strong = std::isfinite(Y) && E >= softest && Y > largest_yield * E;
+    doubt(is_weak || is_strong, "beam.yield_stress",
+          {{"MPa", 1e6}, {"GPa", 1e9}, {"kPa", 1e-3}, {"Pa", 1e-6}}, 1e6,
+          E >= softest ? std::min(strongest, largest_yield * E) : strongest,
+          ", reached at a strain of {:.1e} (metals: some 1e-3){}", Y / E,
+          is_strong && Y > E ? "; are beam.youngs_modulus and beam.yield_stress swapped?" : "");
   }
 
-  void striker() {
+  void striker(bool is_rigid) {
     const double m = case_.scene.striker.mass;
     const bool is_heavy = m > std::max(heavy_striker, most_beam_masses * beam_.mass());
-    if (!is_rigid_ && is_heavy && m <= heaviest_in_grams) {
-      doubt("striker.mass",
-            fmt::format(", {:.3g} times the beam's {:.3g} kg", m / beam_.mass(), beam_.mass()),
-            {{"g", 1e-3}});
-    }
-    if (case_.scene.bodies().striker_velocity() <= fastest) return;
-    if (case_.scene.striker.drop_height) {
-      doubt("striker.drop_height", ", a fall that ends faster than a rifle bullet", {{"mm", 1e-3}});
-    } else {
-      doubt("striker.velocity", ", faster than a rifle bullet", {{"mm/s", 1e-3}});
-    }
+    doubt(!is_rigid && is_heavy && m <= heaviest_in_grams, "striker.mass", {{"g", 1e-3}}, 0.0,
+          INFINITY, ", {:.3g} times the beam's {:.3g} kg", m / beam_.mass(), beam_.mass());
+    const bool is_fast = case_.scene.bodies().striker_velocity() > fastest;
+    const bool falls = case_.scene.striker.drop_height.has_value();
+    doubt(is_fast && falls, "striker.drop_height", {{"mm", 1e-3}}, 0.0, INFINITY,
+          ", a fall that ends faster than a rifle bullet");
+    doubt(is_fast && !falls, "striker.velocity", {{"mm/s", 1e-3}}, 0.0, INFINITY,
+          ", faster than a rifle bullet");
   }
 
   const Case& case_;
   const Beam& beam_;
-  bool is_rigid_;
 };
 
 constexpr double thickest_without_shear = 0.1;  // thickness over length
@@ -231,18 +185,7 @@ void add_pulls(const Beam& beam, const Result& result, std::vector<Beyond>& foun
 
 }  // namespace
 
-std::vector<std::string> doubtful_units(const Case& input) {
-  std::vector<std::string> doubts;
-  for (auto& [key, sentence] : Doubts(input).found) doubts.push_back(sentence);
-  return doubts;
-}
-
-std::string doubtful_unit(const Case& input, std::string_view key) {
-  for (auto& [of, sentence] : Doubts(input).found) {
-    if (of == key) return sentence;
-  }
-  return {};
-}
+std::vector<std::string> doubtful_units(const Case& input) { return Doubts(input).found; }
 
 std::vector<Beyond> beyond_the_model(const Case& input, const Result& result) {
   const Beam& beam = input.scene.beam;

@@ -99,16 +99,12 @@ std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
   if (const std::string meant = nearest_name(*text, key.choice_names()); !meant.empty()) {
     return "; did you mean " + in_quotes(meant) + "?";
   }
-  if (*text == "inf") return "; write it without quotes";
-  const std::string hint = key.type == KeyType::number ? decimal_comma_hint(*text) : "";
-  if (const std::string_view unit = split_unit(*text).unit; hint.empty() && !unit.empty()) {
-    const std::string units = units_beside(is_position(key) ? "m" : key.unit);
-    const bool is_known = value_in(key.unit, *text).has_value();
-    return units.empty() || is_known
-               ? "; write the number without a unit"
-               : fmt::format("; \"{}\" is none of its units: {}", unit, units);
-  }
-  return hint.empty() ? "; numbers are written without quotes" : hint;
+  const std::string_view unit = split_unit(*text).unit;
+  if (unit.empty()) return "; numbers are written without quotes";
+  const std::string units = units_beside(is_position(key) ? "m" : key.unit);
+  const bool is_known = value_in(key.unit, *text).has_value();
+  return units.empty() || is_known ? "; write the number without a unit"
+                                   : fmt::format("; \"{}\" is none of its units: {}", unit, units);
 }
 
 std::string remedy(const CaseKey& key) {

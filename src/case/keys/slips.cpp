@@ -4,9 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "subimpact/case/case_keys.h"
@@ -55,48 +52,29 @@ std::vector<std::string> leaves_of(const std::string& table) {
   return names;
 }
 
-// The keys of that name in all tables, required ones first.
-std::vector<std::string> keys_called(const std::string& leaf) {
+bool is_of_scatter(std::string_view name) { return name.starts_with("scatter"); }
+
+// The keys of that name in all tables that are or are not of the scatter, required ones first.
+std::vector<std::string> keys_called(const std::string& leaf, bool of_scatter) {
   std::vector<std::string> names;
   for (const bool required : {true, false}) {
     for (const CaseKey& key : case_keys()) {
-      const bool is_scatter = key.name.starts_with("scatter.");
-      if (!is_scatter && key.leaf() == leaf && key.required == required) names.push_back(key.name);
+      const bool is_it = is_of_scatter(key.name) == of_scatter && key.leaf() == leaf;
+      if (is_it && key.required == required) names.push_back(key.name);
     }
   }
   return names;
 }
 
-// For a key that `table` does not have: the keys of that name in other tables, else its own key
-// with the nearest name.
+// The keys that may be meant by one that `table` does not have: those of that name elsewhere, and
+// the nearest of the table.
 std::string suggestion(const std::string& table, const std::string& leaf) {
-  std::vector<std::string> elsewhere = keys_called(leaf);
-  const bool is_moved = !elsewhere.empty() && !table.starts_with("scatter");
-  const std::string near = nearest_name(leaf, leaves_of(table));
-  if (!near.empty() && !is_moved) {
-    return fmt::format("; did you mean \"{}\"?", full_key_name(table, near));
-  }
-  for (const CaseKey& key : case_keys()) {
-    const bool is_within = !table.empty() && key.name.starts_with(table + ".");
-    if (is_within && key.leaf() == leaf) return fmt::format("; did you mean \"{}\"?", key.name);
-  }
   if (is_case_table(full_key_name(table, leaf))) return "; it is a table";
-  if (!is_moved) return "; correct or remove it";
-  if (!near.empty()) elsewhere.push_back(full_key_name(table, near));
-  return fmt::format("; {} is a key of [{}]: did you mean \"{}\"?", leaf,
-                     find_case_key(elsewhere.front())->table(), fmt::join(elsewhere, "\" or \""));
-}
-
-// The text after leading digits; nothing if it begins with none.
-std::optional<std::string_view> after_digits(std::string_view text) {
-  const std::size_t n = std::min(text.find_first_not_of("0123456789"), text.size());
-  if (n == 0) return std::nullopt;
-  return text.substr(n);
-}
-
-std::string_view after_any_of(std::string_view characters, std::string_view text) {
-  const bool is_there = !text.empty() && characters.find(text.front()) != std::string_view::npos;
-  return text.substr(is_there ? 1 : 0);
+  std::vector<std::string> meant = keys_called(leaf, is_of_scatter(table));
+  const std::string near = nearest_name(leaf, leaves_of(table));
+  if (!near.empty()) meant.push_back(full_key_name(table, near));
+  return meant.empty() ? "; correct or remove it"
+                       : fmt::format("; did you mean \"{}\"?", fmt::join(meant, "\" or \""));
 }
 
 }  // namespace
@@ -118,26 +96,6 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     }
   }
   return best;
-}
-
-std::string_view leading_decimal_comma(std::string_view text) {
-  const auto fraction = after_digits(after_any_of("+-", text));
-  if (!fraction || !fraction->starts_with(',')) return {};
-  auto rest = after_digits(fraction->substr(1));
-  if (!rest) return {};
-  if (rest->starts_with('e') || rest->starts_with('E')) {
-    rest = after_digits(after_any_of("+-", rest->substr(1))).value_or(*rest);
-  }
-  return text.substr(0, text.size() - rest->size());
-}
-
-std::string decimal_comma_hint(std::string_view text) {
-  const std::string_view comma = leading_decimal_comma(text), unit = text.substr(comma.size());
-  const bool is_value = unit.empty() || unit[0] == ' ' || std::isalpha(unit[0]) != 0;
-  if (comma.empty() || !is_value) return {};
-  std::string number(text);
-  number[number.find(',')] = '.';
-  return "; TOML writes a decimal point: " + number;
 }
 
 bool is_case_table(const std::string& name) {

@@ -1,18 +1,10 @@
 #pragma once
 
-/// What users write in place of what case files have, and what they probably meant: names that are
-/// mistyped or misplaced, and decimal commas.
+/// Names of keys and tables that case files do not have, and what users probably meant.
 
 #include <string>
-#include <string_view>
 
 namespace subimpact {
-
-/// The number with a decimal comma at the start of a text: "0,201" of "0,201 # kg"; else empty.
-std::string_view leading_decimal_comma(std::string_view text);
-
-/// The end of a message about a text that is such a number: how to write it; empty for other texts.
-std::string decimal_comma_hint(std::string_view text);
 
 bool is_case_table(const std::string& name);
 

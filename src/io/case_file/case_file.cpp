@@ -106,7 +106,6 @@ class Reader {
                has_table ? unknown_key(table, setting.key.substr(dot + 1)) : unknown_table(table));
       return;
     }
-    const bool wants_number = key->type == KeyType::number;
     std::erase(refused_, key->name);
     if (setting.value == by_default && key->type != KeyType::text) {
       given_.erase(key->name);
@@ -117,8 +116,7 @@ class Reader {
                            unit_given(*key, *value)};
     } else {
       refused_.push_back(key->name);
-      complain(setting.origin, key->name + " " + refusal(*key, "'" + setting.value + "'") +
-                                   (wants_number ? decimal_comma_hint(setting.value) : ""));
+      complain(setting.origin, key->name + " " + refusal(*key, "'" + setting.value + "'"));
     }
   }
 
@@ -342,33 +340,12 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
-// Results and pictures are mistaken for cases.
-void refuse_other_files(const std::filesystem::path& path) {
-  constexpr std::pair<const char*, const char*> kinds[] = {
-      {".csv", "a table"},   {".json", "a summary of results"},
-      {".html", "a page"},   {".svg", "a picture"},
-      {".png", "a picture"}, {".pdf", "a picture"},
-      {".py", "a script"},   {".md", "a text"}};
-  for (const auto& [ending, what] : kinds) {
-    if (path.extension() != ending) continue;
-    const std::filesystem::path beside = path.parent_path() / "case.toml";
-    std::error_code ignored;
-    fail<CaseFileError>(
-        "{}: is {}, no case file (TOML); give the path of one, such as {}", path.string(), what,
-        std::filesystem::exists(beside, ignored) ? beside.string()
-                                                 : "the one of `subimpact new hammer > case.toml`");
-  }
-}
-
-std::string malformed(const std::string& text, const std::string& name,
-                      const toml::parse_error& error) {
+std::string malformed(const std::string& name, const toml::parse_error& error) {
   const toml::source_position at = error.source().begin;
-  const std::string place = fmt::format("{}:{}:{}: not valid TOML: ", name, at.line, at.column);
-  const std::string number = misspelt_number_in(text, at.line);
-  if (!number.empty()) return place + number;
-  const bool is_open = error.description().find("control characters") != std::string_view::npos;
-  return fmt::format("{}{}{}; correct this line (a setting is written key = value, a table [name])",
-                     place, error.description(), is_open ? " (is a closing quote missing?)" : "");
+  return fmt::format(
+      "{}:{}:{}: not valid TOML: {}; correct this line: a setting is written key = value, a table "
+      "[name], a number with a decimal point, a text or a value with its unit in quotes",
+      name, at.line, at.column, error.description());
 }
 
 }  // namespace
@@ -417,7 +394,7 @@ LoadedCase read_case_text(const std::string& text, const std::string& name,
   try {
     reader.read(toml::parse(text));
   } catch (const toml::parse_error& error) {
-    throw CaseFileError(malformed(text, name, error));
+    throw CaseFileError(malformed(name, error));
   }
   for (const Override& setting : overrides) reader.apply(setting);
   return reader.finish(choose);
@@ -425,7 +402,6 @@ LoadedCase read_case_text(const std::string& text, const std::string& name,
 
 LoadedCase read_case_file(const std::filesystem::path& path, const std::vector<Override>& overrides,
                           const KeyChooser& choose) {
-  refuse_other_files(path);
   return read_case_text(read_text(path), path.string(), overrides, choose);
 }
 

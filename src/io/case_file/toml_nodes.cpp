@@ -1,13 +1,7 @@
 #include "io/case_file/toml_nodes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cctype>
 #include <type_traits>
-
-#include "case/keys/slips.h"
-#include "case/keys/units.h"
 
 namespace subimpact {
 namespace {
@@ -33,13 +27,6 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-std::string_view line_of(std::string_view text, std::size_t number) {
-  for (std::size_t i = 1; i < number && !text.empty(); ++i) {
-    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-  }
-  return text.substr(0, text.find('\n'));
-}
-
 }  // namespace
 
 std::optional<std::size_t> too_deep_at(std::string_view toml) {
@@ -57,25 +44,6 @@ std::optional<std::size_t> too_deep_at(std::string_view toml) {
     }
   }
   return std::nullopt;
-}
-
-std::string misspelt_number_in(std::string_view text, std::size_t line_number) {
-  const std::string_view line = line_of(text, line_number);
-  for (std::size_t at = line.find('='); at < line.size(); at = line.find('=', at + 1)) {
-    const std::size_t start = std::min(line.find_first_not_of(" \t", at + 1), line.size());
-    const std::string_view value = line.substr(start, line.find_first_of("#]}\n", start) - start);
-    const std::string number(leading_decimal_comma(value));
-    if (!number.empty()) return number + " has a decimal comma" + decimal_comma_hint(number);
-    const auto [digits, rest] = split_unit(value.substr(0, value.find(',')));
-    if (digits.empty() || rest.empty() || !std::isalpha(static_cast<unsigned char>(rest[0]))) {
-      continue;
-    }
-    return fmt::format(
-        "{0} {1} is a value with a unit; write it in quotes, \"{0} {1}\", or the number alone, in "
-        "SI units",
-        digits, rest);
-  }
-  return {};
 }
 
 Json json_of(const toml::node& node) {

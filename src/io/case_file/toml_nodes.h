@@ -20,11 +20,6 @@ constexpr std::size_t deepest_nesting = 32;
 /// no TOML is counted right up to its first error, where its parser stops.
 std::optional<std::size_t> too_deep_at(std::string_view toml);
 
-/// What a line (from 1) such as "mass = 0,201" or "mass = 201 g" has in place of a number, and how
-/// to write it; empty if it has no such thing. Lists are left alone: in [0,5] there are two
-/// numbers.
-std::string misspelt_number_in(std::string_view text, std::size_t line_number);
-
 /// The value of a node. Dates and times, which no key holds, are null.
 Json json_of(const toml::node& node);
 

@@ -21,17 +21,15 @@ constexpr const char* spoilt_cases[][3] = {
      R"(2:1: |unknown key "beam.lenght"|width, thickness|did you mean "beam.length"?)"},
     {"youngs", "rtol = 1e-9\nyoungs",
      R"(6:1: |unknown key "beam.rtol"|did you mean "solver.rtol"?)"},
-    {"youngs", "end = 8e-3\nyoungs", R"(6:1: |end is a key of [time]|"time.end" or "beam.ends"?)"},
-    {"length = 0.7112", "length = 711.2 mm",
-     R"(2:|711.2 mm is a value with a unit|in quotes, "711.2 mm"|SI)"},
-    {"mass = 0.201", "mass = 201g # light", R"(8:|201 g is a value with a unit|"201 g")"},
-    {"[beam]", "output = { interval = 1us, shapes = 0 }\n[beam]", "1:|1 us is a value with a unit"},
+    {"youngs", "end = 8e-3\nyoungs", R"(6:1: |did you mean "time.end" or "beam.ends"?)"},
+    {"length = 0.7112", "length = 711.2 mm", "2:|not valid TOML|a value with its unit in quotes"},
     {"length = 0.7112", "length = '711.2 kg'",
      R"(2:1: |("711.2 kg")|"kg" is none of its units: m, mm)"},
     {"mass = 0.201", "mass = 0.201\nposition = '0.8 m'",
      "9:1: |striker.position is 1.12|or a length such as|beam.length is 0.7112 m"},
     {"density = 2600\nyoungs_modulus = 71.96e9", "material = 'S275'", "|did you mean \"S235\"?"},
-    {"length = 0.7112", "length = '711,2 mm'", "|a decimal point: 711.2 mm"},
+    {"length = 0.7112", "length = '711,2 mm'",
+     R"(|("711,2 mm")|",2 mm" is none of its units: m, mm)"},
     {"mass = 0.201", "mass = 0.201\nposition = '0.5 kg'", R"(|"kg" is none of its units: m, mm)"},
     {"", "[model]\nsegments = '501 cells'", R"(14:1: |("501 cells")|a whole number)"},
     {"velocity = 15.9", "velocity = '15.9 M/S'", R"(|"M/S" is none of its units: m/s, mm/s)"},
@@ -39,9 +37,9 @@ constexpr const char* spoilt_cases[][3] = {
     {"length = 0.7112", "length = '28 yd'", R"(|"yd" is none of its units: m, mm, um, cm, km)"},
     {"length = 0.7112", "length = '0.7 0.1'", R"(|("0.7 0.1")|none of its units)"},
     {"length = 0.7112", "length = 'mm'", R"(|("mm")|above 0 (m))"},
-    {"youngs", "position = 0.5\nyoungs", R"(|position is a key of [striker]|"striker.position"?)"},
-    {"mass = 0.201", "mass = 0.201\nlaw = 'hertz'", "|law is a key of [contact]"},
-    {"", "[solver]\nmesh = 'cells'", "|mesh is a key of [model]"},
+    {"youngs", "position = 0.5\nyoungs", R"(|did you mean "striker.position"?)"},
+    {"mass = 0.201", "mass = 0.201\nlaw = 'hertz'", R"(|did you mean "contact.law"?)"},
+    {"", "[solver]\nmesh = 'cells'", R"(|did you mean "model.mesh"?)"},
     {"[beam]", "lengt = 1\n[beam]", R"(1:1: |unknown key "lengt"|outside all tables|title)"},
     {"[time]", "[tiem]",
      "11:2: |unknown table [tiem]|[beam], [beam.damping], [beam.section], [striker]|did you mean "
@@ -111,11 +109,7 @@ constexpr const char* spoilt_cases[][3] = {
     {"youngs", "ends = 'clamped'\nyoungs",
      R"(6:1: |beam.ends is a text ("clamped")|did you mean ["clamped", "clamped"]?)"},
     {"youngs", "ends = ['pined']\nyoungs", R"(6:1: |did you mean ["pinned", "pinned"]?)"},
-    {"mass = 0.201", "mass = 0,201",
-     "8:|0,201 has a decimal comma|TOML writes a decimal point: 0.201"},
-    {"mass = 0.201", "mass = '0,201'", "8:1: striker.mass|TOML writes a decimal point: 0.201"},
-    {"[time]\nend = 2e-5", "time = { end = 2,5e-5 }",
-     "11:|2,5e-5 has a decimal comma|TOML writes a decimal point: 2.5e-5"},
+    {"mass = 0.201", "mass = 0,201", "8:|not valid TOML|a number with a decimal point"},
     {"youngs", "ends = ['free']\nyoungs", R"(6:1: |beam.ends is ["free"]|a list of two)"},
     {"youngs", "ends = [1, 2]\nyoungs",
      "6:1: |beam.ends is a list of numbers ([1, 2])|a list of two"},
@@ -163,18 +157,6 @@ TEST(BadCaseFile, OfDoubtfulUnitsIsToldThemFirst) {
   ASSERT_NE(doubt, std::string::npos) << message;
   EXPECT_LT(doubt, message.find("history rows")) << message;
   expect_not_in(refusal_of(small_case_text() + "[output]\ninterval = 1e-15\n"), "check the unit");
-}
-
-TEST(BadCaseFile, IsNeitherATableNorAPictureNorAScript) {
-  for (const auto& [name, what] : {std::pair("events.csv", "a table"),
-                                   {"summary.json", "a summary of results"},
-                                   {"report.html", "a page"},
-                                   {"response.svg", "a picture"},
-                                   {"figures.py", "a script"}}) {
-    const std::string path = std::string("/nowhere/") + name;
-    expect_in(message_of<CaseFileError>([&] { read_case_file(path); }), name, what, "no case file",
-              "subimpact new");
-  }
 }
 
 TEST(Units, StandForTheSameDoublesAsNumbersInSI) {
@@ -282,7 +264,7 @@ TEST(BadOverride, IsNamedAsTheCommandLineGaveIt) {
         {"beam.damping=1", R"(unknown key "beam.damping"|it is a table)"},
         {"time.end=", "time.end is ''|above 0 (s)"},
         {"time.end=8 mm", R"("mm" is none of its units: s, ms, us, ns)"},
-        {"striker.mass=0,201", "TOML writes a decimal point: 0.201"},
+        {"striker.mass=0,201", R"(",201" is none of its units: kg, g)"},
         {"solver.pair_detection=false", R"(did you mean "study.pair_detection"?)"},
         {"time.end=1\nother=2", "time.end is|above 0 (s)"}}) {
     const std::string refusal = refusal_with(setting);
