@@ -36,10 +36,6 @@ CellMesh::Spacing spacing_of(const Case& input) {
          input.scene.striker.position, why, count, parts, nearest, 1.0 - nearest, also, parts);
 }
 
-bool strikes_end(const Case& input) {
-  return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
-}
-
 // Whether the strike is at an end with a support.
 bool strikes_support(const Case& input) {
   const int end = input.scene.striker.position == 0.0 ? 0 : 1;
@@ -209,6 +205,10 @@ const MeshDescriptor& descriptor_of(MeshKind kind) {
     if (row.kind == kind) return row;
   }
   throw std::logic_error("a mesh has no descriptor: add a row in meshes.cpp");
+}
+
+bool strikes_end(const Case& input) {
+  return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
 }
 
 void check_spacing(const Case& input) {

@@ -45,6 +45,8 @@ const MeshDescriptor& descriptor_of(MeshKind kind);
 /// Throws InvalidCase if the mesh does not suit the beam's theory, or as its descriptor's check().
 void check_mesh(const Case& input);
 
+bool strikes_end(const Case& input);
+
 /// More parts of a mesh whose size is open, where a strike close to an end needs them.
 void make_room_for_strike(Case& input);
 

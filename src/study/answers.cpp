@@ -55,10 +55,6 @@ double first_yield_strain(const Case& input, const Result& result) {
   return 0.5 * input.scene.beam.height() * result.used.yield_curvature * share;
 }
 
-double magnitude(const EnvelopeRow::Range& range) {
-  return std::max(range.largest.value, -range.smallest.value);
-}
-
 class Answers {
  public:
   Answers(const Case& input, const Result& result) : input_(input), result_(result) {}
@@ -86,10 +82,9 @@ class Answers {
     add_bending();
     add_supports();
     const Energies& end = result_.final_energies;
-    const double dissipated = end.bending_plastic + end.contact_plastic + end.beam_damping;
     const bool has_energy = end.taken_up() > 0.0;
-    add(AnswerKey::energy, "J", has_energy ? std::optional(dissipated) : std::nullopt, not_computed,
-        RunTotal::dissipated);
+    add(AnswerKey::energy, "J", has_energy ? std::optional(end.dissipated()) : std::nullopt,
+        not_computed, RunTotal::dissipated);
     for (Answer& answer : all_) {
       if (answer.value && result_.body_errors) add_body_error(*result_.body_errors, answer);
     }
@@ -228,11 +223,11 @@ class Answers {
                       has_set ? std::optional(std::abs(most_set->set_from_supports)) : std::nullopt,
                       why, RunTotal::permanent_set);
     if (has_set) set.position = most_set->position;
-    const auto most = largest([](const EnvelopeRow& row) { return magnitude(row.strain); });
+    const auto most = largest([](const EnvelopeRow& row) { return row.strain.magnitude(); });
     const bool has_share = has_fields && why == stays_elastic;
     Answer& share =
         add(AnswerKey::yield_share, "",
-            has_share ? std::optional(magnitude(most->strain) / first_yield) : std::nullopt,
+            has_share ? std::optional(most->strain.magnitude() / first_yield) : std::nullopt,
             has_yielded            ? yields
             : why == stays_elastic ? not_computed
                                    : why,

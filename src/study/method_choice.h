@@ -21,9 +21,6 @@ Method possible_method(const Case& input, Method method);
 /// that changes its step takes less time then, although each step takes longer.
 bool central_differences_suit(Case input);
 
-/// Whether the method of a case chooses its steps by a tolerance where no step is given.
-bool takes_tolerance(const Case& input);
-
 /// The order of a method at fixed steps where forces are smooth; 0: it has none, or shortens them.
 int order_of(const Case& input, const ResolvedSettings& used);
 

@@ -49,11 +49,4 @@ inline void in_parallel(std::size_t n, unsigned jobs, const std::function<void(s
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Time at which all of these have ended, begun in this order, `jobs` at a time.
-inline double wall_seconds(const std::vector<double>& tasks, unsigned jobs) {
-  std::vector<double> busy(std::max(jobs, 1u), 0.0);
-  for (const double seconds : tasks) *std::ranges::min_element(busy) += seconds;
-  return *std::ranges::max_element(busy);
-}
-
 }  // namespace subimpact

@@ -10,6 +10,7 @@
 #include "case/meshes.h"
 #include "study/judgement/mesh_resolution.h"
 #include "study/judgement/totals.h"
+#include "subimpact/study/answers.h"
 #include "subimpact/study/judgement/judgement.h"
 #include "subimpact/study/model/body_errors.h"
 
@@ -81,12 +82,9 @@ StrikeRow row_of(int strike, const WithinRun& run) {
   row.vibration = end.beam_kinetic + end.bending_elastic;
   row.bending_dissipated = end.bending_plastic + end.beam_damping;
   row.contact_dissipated = end.contact_plastic;
-  if (!result.error_estimate) return row;
-  for (const auto& [name, total] : result.error_estimate->totals) {
-    if (name == RunTotal::restitution) row.restitution_error = total.error;
-    if (name == RunTotal::peak_force) row.peak_force_error = total.error;
-    if (name == RunTotal::permanent_set) row.permanent_set_error = total.error;
-  }
+  row.restitution_error = error_of_total(result, RunTotal::restitution);
+  row.peak_force_error = error_of_total(result, RunTotal::peak_force);
+  row.permanent_set_error = error_of_total(result, RunTotal::permanent_set);
   return row;
 }
 

@@ -20,6 +20,13 @@ constexpr int shortest_step = -8;
 constexpr int loosest_decade = -2;
 constexpr int tightest_decade = -12;
 
+// Whether the method chooses its steps by a tolerance where no step is given.
+bool takes_tolerance(const Case& input) {
+  const OwnIntegrator* own = input.parts.integrator.get();
+  return !descriptor_of(input.solver.method).has_fixed_steps() &&
+         !(input.solver.method == Method::own && own != nullptr && !own->is_adaptive);
+}
+
 }  // namespace
 
 MethodName parse_method_name(const std::string& name) {
@@ -85,12 +92,6 @@ bool can_run(const Case& input) {
   } catch (const InvalidCase&) {
     return false;
   }
-}
-
-bool takes_tolerance(const Case& input) {
-  const OwnIntegrator* own = input.parts.integrator.get();
-  return !descriptor_of(input.solver.method).has_fixed_steps() &&
-         !(input.solver.method == Method::own && own != nullptr && !own->is_adaptive);
 }
 
 int order_of(const Case& input, const ResolvedSettings& used) {

@@ -62,8 +62,8 @@ std::pair<std::size_t, std::string> count_known(const Result& result, double lar
   return {n, {}};
 }
 
-}  // namespace
-
+// Limits a reference to its first `n` sub-impacts and the separation that follows. `reason`, in
+// words, is used where there are more.
 void set_horizon(Reference& reference, std::size_t n, const std::string& reason) {
   const auto& all = reference.result.sub_impacts;
   reference.sub_impacts.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n));
@@ -73,6 +73,39 @@ void set_horizon(Reference& reference, std::size_t n, const std::string& reason)
   reference.horizon = 0.5 * (all[n - 1].end.value() + all[n].start);
   reference.horizon_reason = reason;
 }
+
+// Nothing if all correspond.
+std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>& pairs,
+                                                  const std::vector<SubImpact>& reference,
+                                                  const std::vector<SubImpact>& run) {
+  const std::size_t n = n_leading_matches(pairs);
+  if (n == pairs.size()) return std::nullopt;
+  const MatchedPair& unmatched = pairs[n];
+  const SubImpact& sub_impact =
+      unmatched.first ? reference[*unmatched.first] : run[*unmatched.second];
+  const double duration = sub_impact.end.value_or(sub_impact.start) - sub_impact.start;
+  return UnmatchedSubImpact{
+      sub_impact.start, duration,
+      fmt::format("at {:.3f} us {} a sub-impact of {:.3f} us that {}", 1e6 * sub_impact.start,
+                  unmatched.first ? "the reference has" : "it has", 1e6 * duration,
+                  unmatched.first ? "is missing or merged here" : "the reference does not have")};
+}
+
+std::string leading_words(std::size_t n_corresponding) {
+  if (n_corresponding == 0) return "not even the first corresponds";
+  if (n_corresponding == 1) return "the first corresponds";
+  return fmt::format("the first {} correspond", n_corresponding);
+}
+
+// Whether two runs of a scene have the same method and the same settings of that method.
+bool are_same_methods(const Result& one, const Result& other) {
+  const ResolvedSettings &a = one.used, &b = other.used;
+  return one.given.solver.method == other.given.solver.method && a.table == b.table &&
+         a.step == b.step && a.events == b.events && a.reversals == b.reversals &&
+         a.max_order == b.max_order && a.position_tolerance == b.position_tolerance;
+}
+
+}  // namespace
 
 Reference run_reference(const Case& input, double rtol, const Progress& progress, Jobs jobs) {
   const auto [first, second] = methods_of_reference(input);
@@ -164,13 +197,6 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
   }
   errors.median = median(std::move(times));
   return errors;
-}
-
-bool are_same_methods(const Result& one, const Result& other) {
-  const ResolvedSettings &a = one.used, &b = other.used;
-  return one.given.solver.method == other.given.solver.method && a.table == b.table &&
-         a.step == b.step && a.events == b.events && a.reversals == b.reversals &&
-         a.max_order == b.max_order && a.position_tolerance == b.position_tolerance;
 }
 
 EventErrors event_errors(const Result& run, const Reference& reference) {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "numerics/units.h"
-#include "study/judgement/joined_contacts.h"
 #include "study/judgement/judge.h"
 #include "study/judgement/mesh_resolution.h"
 #include "study/judgement/totals.h"
@@ -21,7 +21,8 @@ namespace {
 // a contact with a support that another mesh lacks.
 constexpr double after_uncertain = 1.5;
 constexpr double loosest_rtol = 1e-2;
-constexpr double alike = 0.025;  // velocities at the end, over that of the strike
+constexpr double alike = 0.025;          // velocities at the end, over that of the strike
+constexpr double joined_opening = 1e-6;  // m
 
 using UncertainFlight = ErrorEstimate::UncertainFlight;
 
@@ -108,14 +109,47 @@ std::optional<Reason> first_mesh_doubt(const Case& input, const Result& run) {
   return doubt;
 }
 
+// What is judged of a run.
+Result judged_part_of(const Result& run) {
+  Result part;
+  part.outcome = run.outcome;
+  part.sub_impacts = run.sub_impacts;
+  part.near_misses = run.near_misses;
+  part.closest_approach = run.closest_approach;
+  part.used = run.used;
+  return part;
+}
+
+// The same with its contacts joined, not yet judged.
+Result joined_part_of(const OutputOptions& output, const Result& run) {
+  Result joined = judged_part_of(run);
+  join_sub_impacts(joined.sub_impacts, joined_opening);
+  assign_zones(joined.sub_impacts, output.zone_gap * run.used.first_period,
+               output.subzone_gap * run.used.first_period);
+  for (SubImpact& s : joined.sub_impacts) static_cast<SubImpactAssessment&>(s) = {};
+  return joined;
+}
+
+// How many sub-impacts of a judged run would be certain if those parted by little were joined; none
+// if all are certain or contacts are joined already.
+std::optional<ErrorEstimate::Joined> judge_joined(Case input, const Result& run,
+                                                  std::span<const RunBeside> beside) {
+  const bool all_certain =
+      std::ranges::count(run.sub_impacts, std::optional(false), &SubImpact::certain) == 0;
+  if (std::exchange(input.output.opening, joined_opening) > 0.0 || all_certain) return std::nullopt;
+  Result here = joined_part_of(input.output, run);
+  std::vector<RunBeside> others;
+  for (const RunBeside& other : beside) {
+    others.push_back({other.of, joined_part_of(other.of.input.output, other.result)});
+  }
+  judge(input, here, others);
+  return ErrorEstimate::Joined{joined_opening, here.sub_impacts.size(), *here.n_certain()};
+}
+
 // What another mesh shows about a run whose rows do not include the error of the mesh.
 ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
                                         const RunBeside& other) {
-  Result here;
-  here.outcome = run.outcome;
-  here.sub_impacts = run.sub_impacts;
-  here.near_misses = run.near_misses;
-  here.used = run.used;
+  Result here = judged_part_of(run);
   ErrorEstimate none;
   judge_rows(input, here, {&other, 1}, none);
   const auto n_same =

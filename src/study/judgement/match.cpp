@@ -1,7 +1,5 @@
 #include "subimpact/study/judgement/match.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -90,22 +88,6 @@ std::size_t n_leading_matches(const std::vector<MatchedPair>& pairs) {
   return static_cast<std::size_t>(unmatched - pairs.begin());
 }
 
-std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>& pairs,
-                                                  const std::vector<SubImpact>& reference,
-                                                  const std::vector<SubImpact>& run) {
-  const std::size_t n = n_leading_matches(pairs);
-  if (n == pairs.size()) return std::nullopt;
-  const MatchedPair& unmatched = pairs[n];
-  const SubImpact& sub_impact =
-      unmatched.first ? reference[*unmatched.first] : run[*unmatched.second];
-  const double duration = sub_impact.end.value_or(sub_impact.start) - sub_impact.start;
-  return UnmatchedSubImpact{
-      sub_impact.start, duration,
-      fmt::format("at {:.3f} us {} a sub-impact of {:.3f} us that {}", 1e6 * sub_impact.start,
-                  unmatched.first ? "the reference has" : "it has", 1e6 * duration,
-                  unmatched.first ? "is missing or merged here" : "the reference does not have")};
-}
-
 std::vector<LengthBeside> lengths_beside(const std::vector<SubImpact>& all, std::size_t number) {
   using Kind = Reason::Kind;
   const SubImpact& here = all[number];
@@ -118,12 +100,6 @@ std::vector<LengthBeside> lengths_beside(const std::vector<SubImpact>& all, std:
     list.push_back({Kind::separation_after, all[number + 1].start - *here.end});
   }
   return list;
-}
-
-std::string leading_words(std::size_t n_corresponding) {
-  if (n_corresponding == 0) return "not even the first corresponds";
-  if (n_corresponding == 1) return "the first corresponds";
-  return fmt::format("the first {} correspond", n_corresponding);
 }
 
 Counterparts counterparts(const std::vector<SubImpact>& base, const std::vector<SubImpact>& other) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "case/meshes.h"
 #include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
@@ -35,10 +36,6 @@ constexpr double fewest_cells_to_end = 6.0;
 constexpr double coarsest_beside = 0.7;  // over the parts of the first mesh
 // For elements, whose modes with a node at the strike have no closed form: 800 take a second.
 constexpr double most_cells_in_modes = 800.0;
-
-bool strikes_end(const Case& input) {
-  return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
-}
 
 // Distance of the strike from the nearest end, as a share of the length.
 double distance_to_end(const Case& input) {

@@ -21,10 +21,6 @@ constexpr std::nullopt_t as_it_is = std::nullopt;  // of counts: the error is th
 // grow without limit on finer meshes.
 constexpr double largest_error_of_strain = 0.5;
 
-double dissipated(const Energies& end) {
-  return end.bending_plastic + end.contact_plastic + end.beam_damping;
-}
-
 enum class From { every_run, shapes };
 
 // `v0`: velocity of the strike, m/s.
@@ -65,7 +61,7 @@ const Quantity quantities[] = {
     {RunTotal::permanent_set, [](Run run, double) { return largest_magnitude(run.envelope, &EnvelopeRow::set_from_supports); }, usual_safety, From::shapes},
     {RunTotal::hinge_rotation, [](Run run, double) { return largest_magnitude(run.plastic_zones, &PlasticZone::rotation); }, usual_safety, From::shapes},
     {RunTotal::striker_energy_share, [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
-    {RunTotal::dissipated, [](Run run, double) { return dissipated(run.final_energies); }, safety_of_dissipated},
+    {RunTotal::dissipated, [](Run run, double) { return run.final_energies.dissipated(); }, safety_of_dissipated},
 };
 // clang-format on
 
@@ -117,10 +113,6 @@ Total total_of(const Result& run, std::span<const RunBeside> beside,
   return total;
 }
 
-double magnitude(const EnvelopeRow::Range& range) {
-  return std::max(std::abs(range.largest.value), std::abs(range.smallest.value));
-}
-
 constexpr double near = 1.0 / 16.0;            // of the length, to either side
 constexpr double between_points = 1.0 / 32.0;  // by which points of two meshes may be apart
 constexpr double safety_of_first_order = 1.5;
@@ -133,7 +125,7 @@ double largest_near(const Result& run, double position, double width,
       std::ranges::lower_bound(run.envelope, position - width, {}, &EnvelopeRow::position);
   double largest = 0.0;
   for (auto row = from; row != run.envelope.end() && row->position <= position + width; ++row) {
-    largest = std::max(largest, magnitude((*row).*range));
+    largest = std::max(largest, ((*row).*range).magnitude());
   }
   return largest;
 }

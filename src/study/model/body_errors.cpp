@@ -11,7 +11,6 @@
 #include "study/model/body_parts.h"
 #include "study/model/body_runs.h"
 #include "study/model/coarse_strike.h"
-#include "study/model/contact_limits.h"
 #include "subimpact/study/judgement/match.h"
 
 namespace subimpact {

@@ -18,6 +18,12 @@ constexpr double first_tolerance_in_modes = 1e-8;
 constexpr double tightest_tolerance = 1e-12;
 constexpr double digits_per_doubling = 1.0;
 constexpr double least_step_ratio = 1.4;  // of a step that the mesh limits, per doubling
+// A step that moves every mode in closed form takes as long as these evaluations.
+constexpr double evaluations_per_step_in_modes = 3.0;
+// K_s w of springs and beddings, a product with a matrix, takes as long as these.
+constexpr double evaluations_of_springs = 1.5;
+// A section that flows takes as long as these evaluations of the others.
+constexpr double evaluations_per_flow = 10.0;
 
 Case with_count(const Case& input, double count) {
   const std::optional<RefinedRun> sized = on_other_mesh(input, count / mesh_count(input));
@@ -99,6 +105,35 @@ const char* Refinement::size_key() const {
 const char* Refinement::fixed_key() const {
   if (!open_.size || !mesh_order(first_)) return size_key();
   return nullptr;
+}
+
+double evaluation_cost(const Case& input) {
+  const bool central = input.solver.method == Method::central_difference;
+  const bool yields = may_yield(input);
+  if (input.solver.method == Method::exponential && !yields) return 1.0;
+  const bool in_elements = input.model.mesh != MeshKind::cells;
+  double cost = central ? 1.0 : 2.0;
+  if (input.scene.beam.is_sprung()) cost += evaluations_of_springs;
+  if (!input.scene.beam.damping.is_none()) cost *= 2.0;
+  const auto varies = [](const PointForce& force) { return force.table.size() > 1; };
+  if (std::ranges::any_of(input.scene.beam.forces, varies)) cost *= 4.0;
+  if (yields && input.scene.beam.is_round()) cost *= 2.0;
+  if (yields && in_elements) cost *= 2.0;
+  return cost;
+}
+
+double counted_work(const Case& input, const Result& result) {
+  const Work& work = result.work;
+  auto evaluations = evaluation_cost(input) * static_cast<double>(work.right_hand_sides);
+  if (input.solver.method == Method::exponential) {
+    evaluations +=
+        evaluations_per_step_in_modes * static_cast<double>(work.steps + work.rejected_steps);
+  }
+  const double per_step = std::max(1.0, static_cast<double>(work.right_hand_sides) /
+                                            static_cast<double>(std::max(work.steps, 1L)));
+  return evaluations * static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1)) +
+         evaluations_per_flow * per_step * static_cast<double>(work.section_flows) +
+         result.used.decomposition;
 }
 
 }  // namespace subimpact

@@ -1,7 +1,7 @@
 // What bounds the force of a contact, and what a case leaves open of the bodies in contact.
 
-#include "study/model/contact_limits.h"
 #include "elastic_case.h"
+#include "study/model/body_parts.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/model/scene_choice.h"
 #include "testing.h"

@@ -27,10 +27,6 @@ struct Reference {
   std::string description;             ///< the two runs, in words
 };
 
-/// Limits a reference to its first `n` sub-impacts: sets `sub_impacts`, and the horizon in the
-/// middle of the separation that follows. `reason`, in words, is used where there are more.
-void set_horizon(Reference& reference, std::size_t n, const std::string& reason);
-
 /// Two runs of a case up to its end, by methods of different kinds, in parallel on two cores:
 /// `nystrom` and `erk`; where damping rules these out, `erk` and `exponential`, or if sections
 /// yield two tables of `erk`. The error stated for an event follows from the difference of the two
@@ -77,9 +73,6 @@ struct EventErrors {
 
 /// For a run of the reference's scene up to its horizon.
 EventErrors event_errors(const Result& run, const Reference& reference);
-
-/// Whether two runs of a scene have the same method and the same settings of that method.
-bool are_same_methods(const Result& one, const Result& other);
 
 /// Errors against any list of sub-impacts; velocities are left at 0.
 EventErrors event_errors(const std::vector<SubImpact>& run,

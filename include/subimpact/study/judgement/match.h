@@ -30,11 +30,6 @@ struct UnmatchedSubImpact {
   std::string description;  ///< in words; the first run is called the reference
 };
 
-/// Nothing if all correspond.
-std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>& pairs,
-                                                  const std::vector<SubImpact>& reference,
-                                                  const std::vector<SubImpact>& run);
-
 /// A time compared with which errors of a sub-impact must be small.
 struct LengthBeside {
   Reason::Kind kind;  ///< duration, separation_before or separation_after
@@ -43,9 +38,6 @@ struct LengthBeside {
 
 /// The duration of a sub-impact (if it has ended) and the separations before and after it.
 std::vector<LengthBeside> lengths_beside(const std::vector<SubImpact>& all, std::size_t number);
-
-/// "the first 3 correspond": how many leading sub-impacts correspond, in words.
-std::string leading_words(std::size_t n_corresponding);
 
 /// The sub-impacts of another run that correspond to those of a base run, one to one.
 struct Counterparts {
