@@ -63,7 +63,7 @@ double decades_of(const Case& input, const char* name) {
                                const std::string& consequence) {
   const CaseKey& key = *find_case_key(name);
   refuse(name, "is {}{}{}{}; allowed: from 1e-{:.0f} to 1e{:.0f}; check the units",
-         to_text(*key.get(input)), key.unit.empty() ? "" : " ", key.unit, consequence, most_decades,
+         value_text(input, name), key.unit.empty() ? "" : " ", key.unit, consequence, most_decades,
          most_decades);
 }
 
@@ -202,8 +202,7 @@ constexpr std::pair<const char*, const char*> short_forms[] = {
     {"beam.width", "beam.section.width"}, {"beam.thickness", "beam.section.height"}};
 
 [[noreturn]] void refuse_section(const Case& input, const char* key, const std::string& why) {
-  refuse(key, "{} (beam.section.shape = {})", why,
-         to_text(*find_case_key("beam.section.shape")->get(input)));
+  refuse(key, "{} (beam.section.shape = {})", why, value_text(input, "beam.section.shape"));
 }
 
 void check_dimensions(const Case& input) {

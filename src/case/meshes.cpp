@@ -216,7 +216,7 @@ void check_spacing(const Case& input) {
     refuse("model.spacing",
            "is {}, but only cells have a spacing; allowed with this mesh: \"cells\"; leave it out, "
            "or set model.mesh = \"cells\"",
-           to_text(*find_case_key("model.spacing")->get(input)));
+           value_text(input, "model.spacing"));
   }
 }
 
@@ -230,8 +230,7 @@ void check_mesh(const Case& input) {
     refuse("model.mesh",
            "is \"{}\", which does not model beam.theory = {}; allowed with it: {}; use one of "
            "these, or another theory",
-           mesh.name, to_text(*find_case_key("beam.theory")->get(input)),
-           fmt::join(suitable, ", "));
+           mesh.name, value_text(input, "beam.theory"), fmt::join(suitable, ", "));
   }
   check_spacing(input);
   mesh.check(input);

@@ -143,8 +143,9 @@ std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys&
 /// 'has no effect with model.section = "exact"', of one key; empty if it has one.
 std::string why_without_effect(const Case& input, const CaseKey& key);
 
-/// A value as a case file writes it.
+/// A value as a case file writes it; that of a key in a case, or its default in words.
 std::string to_text(const KeyValue& value);
+std::string value_text(const Case& input, std::string_view key);
 
 /// The candidate nearest to a mistyped name, or an empty string if none is near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);

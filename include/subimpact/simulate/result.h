@@ -90,7 +90,6 @@ struct EnvelopeRow {
       if (value < smallest.value) smallest = {value, time};
       if (value > largest.value) largest = {value, time};
     }
-    double magnitude() const { return std::max(std::abs(largest.value), std::abs(smallest.value)); }
   };
   double position = 0.0;       ///< x, m
   Range displacement;          ///< m

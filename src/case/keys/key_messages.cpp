@@ -176,6 +176,12 @@ std::string to_text(const KeyValue& value) {
   return std::visit(Writer{}, value);
 }
 
+std::string value_text(const Case& input, std::string_view key) {
+  const CaseKey& known = *find_case_key(key);
+  const std::optional<KeyValue> value = known.get(input);
+  return value ? to_text(*value) : known.default_text;
+}
+
 std::string allowed_values(const CaseKey& key) {
   const std::string unit = key.unit.empty() ? "" : fmt::format(" ({})", key.unit);
   const std::string range = key.range.empty() ? "" : ", " + key.range;

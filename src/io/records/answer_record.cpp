@@ -25,12 +25,22 @@ static std::span<const Named<WhyNot>> names_of(WhyNot) {
        "turns_too_far"});
   return names;
 }
-std::span<const Named<BodyPart>> names_of(BodyPart) {
-  static const auto names = in_order<BodyPart>(
-      {"shear", "shear_coefficient", "poisson", "bending", "contact_law", "nose", "gravity", "width", "finite_rotations",
-       "stretching", "support", "hinge_length", "thin_openings"});
-  return names;
-}
+constexpr BodyPartWords body_parts[] = {
+    {BodyPart::shear, "shear", "shear", "beam.theory = \"timoshenko\" models it"},
+    {BodyPart::shear_coefficient, "shear_coefficient", "shear coefficient", "give beam.shear_coefficient where it is known better than to 2 %"},
+    {BodyPart::poisson, "poisson", "Poisson's ratio", "give beam.poisson or beam.material"},
+    {BodyPart::bending, "bending", "bending", "model a beam that bends"},
+    {BodyPart::contact_law, "contact_law", "contact law", "give the measured curve: contact.law = \"curve\""},
+    {BodyPart::nose, "nose", "nose", "give contact.striker_modulus and contact.striker_poisson"},
+    {BodyPart::gravity, "gravity", "gravity", "scene.gravity = 9.81, or 0 for a level strike"},
+    {BodyPart::width, "width", "width of the hinge", "measure the permanent set once"},
+    {BodyPart::finite_rotations, "finite_rotations", "finite rotations", "strike more softly, or compare with a 3-D solid"},
+    {BodyPart::stretching, "stretching", "stretching of beam", "beam.axial = \"held\" or \"free\", as the supports are"},
+    {BodyPart::support, "support", "support stiffness", "measure it, and give beam.springs with one_sided = true for ends that rest"},
+    {BodyPart::hinge_length, "hinge_length", "length of the hinge", "no theory of beams knows it"},
+    {BodyPart::thin_openings, "thin_openings", "thin openings", "count gaps so thin as closed: --opening 10um"}};
+std::span<const BodyPartWords> names_of(BodyPart) { return body_parts; }
+
 static std::span<const Named<StrikeVerdict::Certainty>> names_of(StrikeVerdict::Certainty) {
   static const auto names = in_order<StrikeVerdict::Certainty>({"not_known", "none", "some", "all"});
   return names;

@@ -5,7 +5,14 @@
 
 namespace subimpact {
 
-std::span<const Named<BodyPart>> names_of(BodyPart);
+/// A part of the errors of the body: its name in files, in words, and what makes it smaller, or why
+/// nothing does.
+struct BodyPartWords {
+  BodyPart kind;
+  const char *name, *label, *remedy;
+};
+std::span<const BodyPartWords> names_of(BodyPart);
+
 /// What summary.json has of errors of the body.
 const Record<BodyErrors>& body_record();
 

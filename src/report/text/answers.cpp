@@ -6,9 +6,9 @@
 
 #include "case/counted.h"
 #include "case/problem.h"
+#include "io/records/answer_record.h"
 #include "model/contact/contact_laws.h"
 #include "numerics/units.h"
-#include "report/text/body_words.h"
 #include "report/text/uncertain.h"
 #include "subimpact/report/text.h"
 #include "subimpact/study/answers.h"
@@ -308,9 +308,10 @@ void add_numbers(const Case& input, const Result& result, Answer& answer) {
   double at_least = 0.0;
   for (Answer::Part& part : answer.parts) {
     at_least += part.change.value_or(0.0);
-    part.label = label_of(part.kind);
+    const auto& words = *std::ranges::find(names_of(part.kind), part.kind, &BodyPartWords::kind);
+    part.label = words.label;
     part.text = part.change ? rough(*part.change) : "not known";
-    part.remedy = remedy_of(part.kind);
+    part.remedy = words.remedy;
   }
   if (answer.error && answer.body_error) {
     answer.total_text = rough(std::hypot(*answer.error, *answer.body_error));
@@ -391,17 +392,15 @@ std::string verdict_words(const Result& result) {
       beam = fmt::format("bent by {}; ", with_total_error(find(AnswerKey::permanent_set)));
       break;
   }
-  static constexpr std::pair<Contact, const char*> states[] = {
-      {Contact::over, "contact is over"},
-      {Contact::may_not_be_over, "may not be over"},
-      {Contact::not_over, "still in contact"},
-      {Contact::rests, "in the end they rest on each other"}};
-  const auto state =
-      std::ranges::find(states, verdict.contact, &std::pair<Contact, const char*>::first);
+  // In the order of Contact.
+  static constexpr const char* states[] = {"", "contact is over", "may not be over",
+                                           "still in contact",
+                                           "in the end they rest on each other"};
   return fmt::format("{}{} in {}{}; up to {}; {}{}.", before,
                      counted(result.sub_impacts.size(), "sub-impact"), end,
                      result.error_estimate ? certain_words(result) : ", certainty not known",
-                     with_total_error(find(AnswerKey::largest_force)), beam, state->second);
+                     with_total_error(find(AnswerKey::largest_force)), beam,
+                     states[static_cast<std::size_t>(verdict.contact)]);
 }
 
 }  // namespace

@@ -18,24 +18,6 @@
 namespace subimpact {
 namespace {
 
-std::string key_text(const Case& input, const char* name) {
-  const CaseKey* key = find_case_key(name);
-  const std::optional<KeyValue> value = key->get(input);
-  return value ? to_text(*value) : key->default_text;
-}
-
-// A nose radius describes the striker whether or not the law uses it; where it does not, the
-// explanation states this.
-std::string contact_stiffness_text(const Case& input, const ResolvedSettings& used) {
-  const Contact& contact = input.scene.contact;
-  const std::string unit =
-      used.contact_exponent == 1.0 ? "N/m" : fmt::format("N/m^{:.6g}", used.contact_exponent);
-  if (input.parts.contact_law || !contact.stiffness)
-    return fmt::format("{:.7g} {}", used.contact_stiffness, unit);
-  return fmt::format("{:.7g} {}, as given{}", used.contact_stiffness, unit,
-                     input.scene.striker.nose_radius ? "; striker.nose_radius has no effect" : "");
-}
-
 std::string cross_section_text(const Beam& beam) {
   const CrossSection::Solid outer = beam.outer_solid();
   const CrossSection& given = beam.section;
@@ -107,9 +89,9 @@ std::string scene_section(const Case& input, const ResolvedSettings& used) {
     text += line("beam", "a plane that does not move");
   } else {
     const char* axial = scene.beam.stretches() ? ", held along the beam: a tension" : "";
-    text += line("beam",
-                 fmt::format("{:.6g} kg; ends {}{}; theory {}", scene.beam.mass(),
-                             key_text(input, "beam.ends"), axial, key_text(input, "beam.theory")));
+    text += line("beam", fmt::format("{:.6g} kg; ends {}{}; theory {}", scene.beam.mass(),
+                                     value_text(input, "beam.ends"), axial,
+                                     value_text(input, "beam.theory")));
     text += line("cross-section", cross_section_text(scene.beam));
   }
   text +=
@@ -129,7 +111,6 @@ std::string scene_section(const Case& input, const ResolvedSettings& used) {
                              duration_text(scene.striker.first_touch()), mm * scene.striker.gap));
   }
   if (scene.beam.fixed) return text;
-  text += line("first bending period", duration_text(used.first_period));
   text += line("zones", fmt::format("end after {} of separation, sub-zones after {}",
                                     duration_text(input.output.zone_gap * used.first_period),
                                     duration_text(input.output.subzone_gap * used.first_period)));
@@ -141,17 +122,9 @@ std::string contact_section(const Case& input, const ResolvedSettings& used) {
   std::string text = "Contact\n";
   const std::string words = contact_words(input);
   text += line("law", words.empty() ? used.contact_law : words + contact_assumptions(input));
-  text += line("stiffness", contact_stiffness_text(input, used));
   if (const double damping = scene.contact_damping(); damping > 0.0) {
     text += line("damping", fmt::format("{:.6g} s/m", damping));
   }
-  text +=
-      line("stiffest", fmt::format("{:.4g} N/m, as deep as the strike's energy can press; contacts "
-                                   "then last about {} or more",
-                                   used.largest_contact_slope, duration_text(used.contact_time)));
-  text += line("yield indentation", std::isinf(used.yield_indentation)
-                                        ? "infinite: the contact never yields"
-                                        : fmt::format("{:.6g} mm", mm * used.yield_indentation));
   if (!input.parts.contact_law) text += line("yield velocity", yield_velocity_text(input));
   return text;
 }
@@ -166,12 +139,13 @@ std::string settings_section(const Case& input, const ResolvedSettings& used) {
   const Json settings = Json::parse(summary_json(input, result)).at("used");
   std::string text = "Settings, in SI units\n";
   for (const auto& [name, value] : settings.items()) {
+    if (value.is_null()) continue;
     const auto meaning = meanings.find("used." + name);
-    if (value.is_null() || meaning == meanings.end()) continue;
     const std::string shown = value.is_number_float() ? fmt::format("{:.7g}", value.get<double>())
                               : value.is_string()     ? value.get<std::string>()
                                                       : value.dump();
-    text += fmt::format("  {:<32} {}: {}\n", name, shown, meaning->second);
+    text += fmt::format("  {:<32} {}{}\n", name, shown,
+                        meaning == meanings.end() ? "" : ": " + meaning->second);
   }
   return text + line("files", files_text(input, used));
 }

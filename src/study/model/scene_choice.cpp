@@ -256,10 +256,6 @@ ShearTest test_shear(const Case& without, const Case& with) {
           "velocity and set by less than 1 %"};
 }
 
-std::string text_of(const Case& input, const char* key) {
-  return to_text(*find_case_key(key)->get(input));
-}
-
 // The law, where it is measured from and when it yields, as far as they were chosen.
 std::vector<std::string> law_words(const Case& chosen, const PossibleLaw& law,
                                    const GivenKeys& given) {
@@ -271,10 +267,10 @@ std::vector<std::string> law_words(const Case& chosen, const PossibleLaw& law,
                        : is_ball ? " (for a nose not given, since none has a cylinder here)"
                                  : " (a nose not given is a cylinder)";
     words.push_back(
-        fmt::format("contact.law = {}: {}{}", text_of(chosen, "contact.law"), law.reason, nose));
+        fmt::format("contact.law = {}: {}{}", value_text(chosen, "contact.law"), law.reason, nose));
   }
   const auto add = [&](const char* key) {
-    if (!given.contain(key)) words.push_back(fmt::format("{} = {}", key, text_of(chosen, key)));
+    if (!given.contain(key)) words.push_back(fmt::format("{} = {}", key, value_text(chosen, key)));
   };
   if (scene.contact.indentation) add("contact.indentation");
   if (scene.contact.pressure_by_depth) add("contact.yield_pressure");
@@ -323,7 +319,7 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given) {
   std::vector<std::string> words, keys;
   if (open_theory) {
     words.push_back(
-        fmt::format("beam.theory = {}: {}", text_of(chosen, "beam.theory"), test.words));
+        fmt::format("beam.theory = {}: {}", value_text(chosen, "beam.theory"), test.words));
   }
   if (open_law) std::ranges::copy(law_words(chosen, *law, given), std::back_inserter(words));
   if (!knows_poisson && needs_poisson) words.push_back("beam.poisson = 0.3: none is given");
