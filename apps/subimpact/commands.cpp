@@ -58,11 +58,6 @@ std::optional<double> seconds_of(const std::string& text) {
 
 }  // namespace
 
-ExitStatus status_of(OutcomeKind outcome) {
-  if (outcome == OutcomeKind::completed || outcome == OutcomeKind::stopped) return done;
-  return outcome == OutcomeKind::left_validity ? refused : failed;
-}
-
 void print_to(std::FILE* stream, const std::string& text) {
   const std::string shown = printable(text);
   std::fwrite(shown.data(), 1, shown.size(), stream);

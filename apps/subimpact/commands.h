@@ -26,8 +26,6 @@ enum ExitStatus : int {
   failed = 3    ///< the solver failed, or its results could not be written
 };
 
-ExitStatus status_of(OutcomeKind outcome);
-
 /// Prints a text without control characters, for it may come from files, paths and arguments. A
 /// failure is left to the stream: main() checks stdout once.
 void print_to(std::FILE* stream, const std::string& text);

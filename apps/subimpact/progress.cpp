@@ -69,9 +69,8 @@ void StatusLine::clear() {
   is_dirty_ = false;
 }
 
-void ProgressDisplay::show_run(const std::string& description, std::optional<double> end_time) {
+void ProgressDisplay::show_run(const std::string& description) {
   run_ = description + ": ";
-  end_time_ = end_time.value_or(end_time_);
   show(0.0);
 }
 

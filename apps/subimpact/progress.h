@@ -3,7 +3,6 @@
 /// What a command shows while it runs, and the signals that ask it to end.
 
 #include <chrono>
-#include <optional>
 #include <string>
 
 namespace subimpact::app {
@@ -49,8 +48,8 @@ class ProgressDisplay {
   ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener)
       : listener_(listener), end_time_(end_time), quiet_(quiet) {}
 
-  /// What is running, shown before the time, and to what end time, if that is another one.
-  void show_run(const std::string& description, std::optional<double> end_time = {});
+  /// What is running, shown before the time.
+  void show_run(const std::string& description);
 
   /// Returns false once the program was asked to end.
   bool operator()(double time);

@@ -63,36 +63,22 @@ std::string package_directory() {
   return {};
 }
 
-std::vector<std::string> environment_with(const std::string& package) {
-  constexpr std::string_view path = "PYTHONPATH=";
-  std::vector<std::string> variables;
-  std::string others;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    const std::string_view text = *variable;
-    if (text.starts_with(path)) {
-      others = text.substr(path.size());
-    } else {
-      variables.emplace_back(text);
-    }
-  }
+// Runs Python with the package of this program before those of PYTHONPATH. Returns, with a message,
+// only if it cannot be run.
+int become_python(std::vector<std::string> words) {
+  const std::string python = interpreter(), package = package_directory();
+  const char* given = std::getenv("PYTHONPATH");
+  const std::string others = given != nullptr ? given : "";
   const char* between = package.empty() || others.empty() ? "" : ":";
-  variables.push_back(std::string(path) + package + between + others);
-  return variables;
-}
-
-std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  setenv("PYTHONPATH", (package + between + others).c_str(), 1);
+  words.insert(words.begin(), python);
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  return pointers;
-}
-
-int cannot_run(const std::string& python) {
+  execvp(python.c_str(), pointers.data());
   print_error("subimpact: {}: cannot be run; {}\n", python, remedy);
   return refused;
 }
-
-constexpr int not_run = 127;
 
 // Waits for the end of a process. A terminal sends Ctrl-C to both; the child decides how to end.
 int status_of_ended(pid_t child) {
@@ -107,21 +93,14 @@ int status_of_ended(pid_t child) {
 }  // namespace
 
 int run_python(const std::string& module, const std::vector<std::string>& arguments) {
-  const std::string python = interpreter();
-  std::vector<std::string> words = {python, "-c", start_module, remedy, module};
+  std::vector<std::string> words = {"-c", start_module, remedy, module};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<std::string> variables = environment_with(package_directory());
-  const std::vector<char*> argv = pointers_to(words), environment = pointers_to(variables);
   std::fflush(stdout);
   const pid_t parent = getpid(), child = fork();
-  if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() == parent) execvpe(python.c_str(), argv.data(), environment.data());
-    _exit(not_run);
-  }
-  const int status = child < 0 ? not_run : status_of_ended(child);
-  if (status != not_run) return status;
-  return cannot_run(python);
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (child > 0) return status_of_ended(child);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  _exit(getppid() == parent ? become_python(words) : failed);
 }
 
 std::vector<Command> python_commands() {
@@ -148,14 +127,7 @@ std::vector<Command> python_commands() {
       "  subimpact python script.py\n"
       "  subimpact python -c 'import subimpact; print(subimpact.__version__)'\n"
       "Exit status: that of Python; 2 without Python.",
-      [](const auto& rest) {
-        const std::string name = interpreter();
-        std::vector<std::string> words = rest;
-        words.insert(words.begin(), name);
-        std::vector<std::string> variables = environment_with(package_directory());
-        execvpe(name.c_str(), pointers_to(words).data(), pointers_to(variables).data());
-        return cannot_run(name);
-      },
+      [](const auto& rest) { return become_python(rest); },
       true};
   return {of_package("plot", "subimpact.plot",
                      "Draw the figures of a run, a sweep or a study (SVG, PNG and PDF)"),

@@ -15,10 +15,6 @@ struct FinishedRunOptions {
   std::string dygraphs = SUBIMPACT_DYGRAPHS;
   std::string measured;
   std::vector<std::string> how_measured;  // one a row of `measured_options`
-
-  const std::string& directory_or_first_run() const {
-    return directory.empty() ? runs.front() : directory;
-  }
 };
 
 struct PassedOption {
@@ -76,7 +72,8 @@ int report(FinishedRunOptions& options) {
     fail<ResultsError>(
         "{}: is not a directory; give the output directory of `subimpact run` (--out)", first);
   }
-  const fs::path place = options.directory_or_first_run(), figures = place / "figures";
+  const fs::path place = options.directory.empty() ? first : options.directory,
+                 figures = place / "figures";
   if (!options.measured.empty()) {
     if (const int status = compare_with_measured(options, figures); status != done) return status;
   }

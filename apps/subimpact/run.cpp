@@ -193,7 +193,8 @@ int run(RunOptions& options) {
   if (!unwritten.empty()) print_error("subimpact: {}\n", unwritten);
   if (!unwritten.empty()) return failed;
   if (result.outcome.kind == OutcomeKind::stopped) return listener.exit_status();
-  return status_of(result.outcome.kind);
+  if (result.outcome.kind == OutcomeKind::left_validity) return refused;
+  return result.outcome.completed() ? done : failed;
 }
 
 std::vector<Option> options_of(RunOptions& options) {

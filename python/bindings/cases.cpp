@@ -28,34 +28,16 @@ const CaseKey& key_of(const std::string& name) {
 
 namespace {
 
-const char* type_name(KeyType type) {
-  switch (type) {
-    case KeyType::text:
-      return "text";
-    case KeyType::number:
-      return "number";
-    case KeyType::count:
-      return "count";
-    case KeyType::flag:
-      return "flag";
-    case KeyType::choice:
-      return "choice";
-    case KeyType::pair:
-      return "pair";
-    case KeyType::numbers:
-      return "numbers";
-    case KeyType::placed:
-      return "placed";
-  }
-  return "";
-}
+// In the order of KeyType.
+constexpr const char* type_names[] = {"text",   "number", "count",   "flag",
+                                      "choice", "pair",   "numbers", "placed"};
 
 py::dict key_as_dict(const CaseKey& key) {
   py::list choices;
   for (const Choice& choice : key.choices) choices.append(choice.name);
   py::dict dict;
   dict["name"] = key.name;
-  dict["type"] = type_name(key.type);
+  dict["type"] = type_names[static_cast<std::size_t>(key.type)];
   dict["unit"] = key.unit;
   dict["allowed"] = allowed_values(key);
   dict["least"] = key.limits.minimum ? key.limits.minimum : key.limits.exclusive_minimum;

@@ -24,22 +24,13 @@ class Overseer {
     }
   }
 
-  /// False: the runs are to end.
-  bool goes_on() {
+  /// False: the runs are to end. Calls the callback with the simulated time, if there is one.
+  bool goes_on(const std::optional<double>& time = {}) {
     const std::lock_guard lock(mutex_);
     if (is_ended() || !is_time_to_look()) return !is_ended();
     const py::gil_scoped_acquire gil;
     look_for_signals();
-    return !is_ended();
-  }
-
-  /// The same, and calls the callback with the simulated time.
-  bool goes_on(double time) {
-    const std::lock_guard lock(mutex_);
-    if (is_ended() || !is_time_to_look()) return !is_ended();
-    const py::gil_scoped_acquire gil;
-    look_for_signals();
-    call(time);
+    if (time) call(*time);
     return !is_ended();
   }
 

@@ -10,10 +10,12 @@
 #include "bindings.h"
 #include "finished.h"
 #include "io/records/run_tables.h"
+#include "study/judgement/totals.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
+#include "subimpact/study/answers.h"
 #include "tables.h"
 
 namespace subimpact::python {
@@ -59,8 +61,6 @@ std::optional<int> all_certain(const Finished& run) {
   return run.result.all_certain() ? 1 : 0;
 }
 
-double total_impulse(const Finished& run) { return run.result.impulse(); }
-
 std::optional<double> time_of_max_force(const Finished& run) {
   const auto& all = run.result.sub_impacts;
   const auto strongest = std::ranges::max_element(all, {}, &SubImpact::peak_force);
@@ -72,15 +72,12 @@ auto at_end(double Energies::*energy) {
   return [energy](const Finished& run) { return run.result.final_energies.*energy; };
 }
 
-// The largest deflection at rest from the chord; none of a run without shapes, or that turns too
+// The largest deflection at rest from the supports; none of a run without shapes, or that turns too
 // far.
 std::optional<double> permanent_set(const Finished& run) {
-  double largest = 0.0;
-  for (const EnvelopeRow& row : run.result.envelope) {
-    largest = std::max(largest, std::abs(row.set_from_supports));
-  }
   const bool is_known = !run.result.envelope.empty() && !run.result.turns_too_far();
-  return is_known ? std::optional(largest) : std::nullopt;
+  if (!is_known) return std::nullopt;
+  return largest_magnitude(run.result.envelope, &EnvelopeRow::set_from_supports);
 }
 
 double residual_indentation(const Finished& run) {
@@ -92,14 +89,8 @@ double striker_energy_share(const Finished& run) {
   return std::pow(run.result.striker_velocity / run.input.scene.bodies().velocity_scale(), 2);
 }
 
-// Of a total; none without error bars, or where it is not known.
 auto error_of(RunTotal name) {
-  return [name](const Finished& run) {
-    const auto& estimate = run.result.error_estimate;
-    if (!estimate) return std::optional<double>();
-    const auto found = std::ranges::find(estimate->totals, name, &NamedTotal::name);
-    return found == estimate->totals.end() ? std::nullopt : found->total.error;
-  };
+  return [name](const Finished& run) { return error_of_total(run.result, name); };
 }
 
 // What the warnings are about, in a word each, the same for all that have no word of their own.
@@ -139,7 +130,7 @@ const Columns<Finished>& swept_run_columns() {
       {"residual_indentation_error_m", error_of(RunTotal::residual_indentation)},
       {"permanent_set_m", &permanent_set},
       {"permanent_set_error_m", error_of(RunTotal::permanent_set)},
-      {"impulse_Ns", &total_impulse},
+      {"impulse_Ns", [](const Finished& run) { return run.result.impulse(); }},
       {"impulse_error_Ns", error_of(RunTotal::impulse)},
       {"striker_velocity_m_per_s", member(&Result::striker_velocity)},
       {"striker_velocity_error_m_per_s", error_of(RunTotal::striker_velocity)},

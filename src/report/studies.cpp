@@ -14,15 +14,6 @@
 #include "subimpact/report/text.h"
 
 namespace subimpact {
-namespace {
-
-template <auto number>
-constexpr auto errors = [](const auto& row) {
-  return row.has_run() ? std::optional(row.errors.*number) : std::nullopt;
-};
-
-}  // namespace
-
 std::string outcome_table(const OutcomeMap& map) {
   constexpr std::string_view letters = "+wiUFr.";  // in the order of verdicts
   std::string text = fmt::format(
@@ -54,8 +45,8 @@ std::string outcome_table(const OutcomeMap& map) {
 }
 
 std::string outcomes_csv(const OutcomeMap& map) {
-  const auto if_completed = [](const OutcomePoint& point, double value) {
-    return point.has_errors() ? std::optional(value) : std::nullopt;
+  const auto energy_error = [](const OutcomePoint& p) {
+    return p.has_errors() ? std::optional(p.energy_error) : std::nullopt;
   };
   const Columns<OutcomePoint> columns = {
       {"group",
@@ -65,62 +56,49 @@ std::string outcomes_csv(const OutcomeMap& map) {
       {"row", &OutcomePoint::row},
       {"omega_h_or_rtol", &OutcomePoint::x},
       {"verdict", [](const OutcomePoint& p) { return p.verdict; }},
-      {"reference_sub_impacts", errors<&EventErrors::n_reference>},
-      {"sub_impacts", errors<&EventErrors::n_found>},
-      {"corresponding", errors<&EventErrors::n_corresponding>},
-      {"median_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.median); }},
-      {"max_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.maximum); }},
-      {"energy_error", [=](const OutcomePoint& p) { return if_completed(p, p.energy_error); }},
+      {"reference_sub_impacts", of_run<&Trial::errors, &EventErrors::n_reference>},
+      {"sub_impacts", of_run<&Trial::errors, &EventErrors::n_found>},
+      {"corresponding", of_run<&Trial::errors, &EventErrors::n_corresponding>},
+      {"median_error_s", known_error<&EventErrors::median>},
+      {"max_error_s", known_error<&EventErrors::maximum>},
+      {"energy_error", energy_error},
       {"message", &OutcomePoint::message}};
   return csv_text(columns, map.points);
 }
 
 namespace {
 
-struct Point {
+struct Point : Trial {
   std::string label;  // of the case
-  Trial trial;
   double reference_error = 0.0;
 };
 
-template <auto... members>
-constexpr auto of_trial = member<&Point::trial, members...>;
-// Of runs alone; a setting that did not run has none.
-template <auto... members>
-constexpr auto of_run = [](const Point& row) {
-  return row.trial.has_run() ? std::optional(of_trial<members...>(row)) : std::nullopt;
-};
-template <double EventErrors::*error>
-constexpr auto known_error = [](const Point& row) {
-  return row.trial.has_errors() ? std::optional(row.trial.errors.*error) : std::nullopt;
-};
-
 std::optional<std::string> correspondence(const Point& row) {
-  const EventErrors& errors = row.trial.errors;
-  if (!row.trial.has_errors()) return std::nullopt;
+  const EventErrors& errors = row.errors;
+  if (!row.has_errors()) return std::nullopt;
   return fmt::format("{:>4}/{:<4}", errors.n_corresponding, errors.n_reference);
 }
 
 const StudyColumns<Point>& point_columns() {
-  const auto setting = [](const Point& row) { return row.trial.setting.text(); };
+  const auto setting = [](const Point& row) { return row.setting.text(); };
   const auto wall_time = [](const Point& row) {
-    return row.trial.has_run() ? std::optional(duration_text(row.trial.seconds)) : std::nullopt;
+    return row.has_run() ? std::optional(duration_text(row.seconds)) : std::nullopt;
   };
   const auto time = [](const char* heading) { return Print{heading, ">9", ".1e", us}; };
   const auto share = [](const char* heading) { return Print{heading, ">9", ".1e"}; };
   const auto odd = [](double UnmatchedSubImpact::*length) {
     return [length](const Point& row) {
-      const auto& unmatched = row.trial.errors.unmatched;
+      const auto& unmatched = row.errors.unmatched;
       return unmatched ? std::optional((*unmatched).*length) : std::nullopt;
     };
   };
   static const StudyColumns<Point> columns = {
       {"label", &Point::label},
-      {"method", of_trial<&Trial::setting, &Setting::method>, {"method", "<22"}},
-      {"kind", [](const Point& row) { return row.trial.setting.fixed_step ? "step" : "rtol"; }},
-      {"setting", of_trial<&Trial::setting, &Setting::value>},
+      {"method", member<&Trial::setting, &Setting::method>, {"method", "<22"}},
+      {"kind", [](const Point& row) { return row.setting.fixed_step ? "step" : "rtol"; }},
+      {"setting", member<&Trial::setting, &Setting::value>},
       {"", setting, {"setting", "<14"}},
-      {"verdict", of_trial<&Trial::verdict>, {"verdict", "<12"}},
+      {"verdict", member<&Trial::verdict>, {"verdict", "<12"}},
       {"reference_sub_impacts", of_run<&Trial::errors, &EventErrors::n_reference>},
       {"sub_impacts", of_run<&Trial::errors, &EventErrors::n_found>},
       {"corresponding", of_run<&Trial::errors, &EventErrors::n_corresponding>},
@@ -130,7 +108,7 @@ const StudyColumns<Point>& point_columns() {
       {"median_error_s", known_error<&EventErrors::median>, time("times,\nmedian us")},
       {"max_error_s", known_error<&EventErrors::maximum>, time("times,\nmax us")},
       {"reference_error_s", &Point::reference_error},
-      {"observed_order", of_trial<&Trial::order>, {"order", ">6", ".1f"}},
+      {"observed_order", member<&Trial::order>, {"order", ">6", ".1f"}},
       {"first_error_s", known_error<&EventErrors::first>},
       {"last_error_s", known_error<&EventErrors::last>},
       {"peak_force_error", known_error<&EventErrors::peak_force>, share("peaks,\nmax rel.")},
@@ -149,7 +127,7 @@ const StudyColumns<Point>& point_columns() {
       {"mass_solves", of_run<&Trial::work, &Work::mass_solves>, {"mass\nsolves", ">10"}},
       {"jacobians", of_run<&Trial::work, &Work::jacobians>},
       {"factorisations", of_run<&Trial::work, &Work::factorisations>, {"factori-\nsations", ">8"}},
-      {"message", of_trial<&Trial::message>},
+      {"message", member<&Trial::message>},
   };
   return columns;
 }
@@ -212,7 +190,7 @@ std::string work_precision_table(const WorkPrecision& study) {
                                                before->fixed_step == setting.fixed_step);
     if (!goes_on) text += '\n';
     before = &setting;
-    text += printed_row(point_columns(), {{}, point});
+    text += printed_row(point_columns(), Point{point, {}});
     if (point.message.empty()) continue;
     messages += fmt::format("{} at {}: {}\n", setting.method, setting.text(), point.message);
   }
@@ -237,7 +215,7 @@ std::string work_precision_csv(const std::vector<WorkPrecision>& studies) {
   std::vector<Point> rows;
   for (const WorkPrecision& study : studies) {
     for (const Trial& point : study.points) {
-      rows.push_back({study.label, point, study.reference.error});
+      rows.push_back({point, study.label, study.reference.error});
     }
   }
   return csv_text(columns_in_file(point_columns()), rows);

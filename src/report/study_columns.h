@@ -5,12 +5,23 @@
 #include <fmt/format.h>
 
 #include "io/records/csv_columns.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 namespace subimpact {
 
 /// The member of a row that a path of members leads to.
 template <auto... members>
 constexpr auto member = [](const auto& row) { return (row.*....*members); };
+
+// Of trials: a number of one that ran, or a known error.
+template <auto... members>
+constexpr auto of_run = [](const auto& trial) {
+  return trial.has_run() ? std::optional(member<members...>(trial)) : std::nullopt;
+};
+template <double EventErrors::*error>
+constexpr auto known_error = [](const auto& trial) {
+  return trial.has_errors() ? std::optional(trial.errors.*error) : std::nullopt;
+};
 
 struct Print {
   std::string heading;      ///< in one line or in two

@@ -21,11 +21,6 @@ template <auto count>
 constexpr auto work = member<&ComparedRun::work, count>;
 template <auto number>
 constexpr auto errors = member<&ComparedRun::errors, number>;
-template <double EventErrors::*error>
-constexpr auto known_error = [](const ComparedRun& run) {
-  return run.has_errors() ? std::optional(run.errors.*error) : std::nullopt;
-};
-
 StudyColumns<ComparedRun> columns_of(const Comparison& comparison) {
   std::size_t width = narrowest_name;
   for (const ComparedRun& run : comparison.runs) width = std::max(width, run.setting.method.size());

@@ -17,22 +17,6 @@ bool has_first_touch_alone(const Result& result) {
   return result.sub_impacts.size() == 1 && !result.sub_impacts.front().end;
 }
 
-// How certain: "times of the certain ones to 2 us; <first reason why others are not>".
-std::string certain_text(const Result& result, const ErrorEstimate& found) {
-  if (!found.first_unresolved) {
-    return has_first_touch_alone(result)
-               ? "no event time up to " + duration_text(result.outcome.time) +
-                     " but the first touch, which is exact"
-               : fmt::format("all times to {} up to {}", error_text(found.largest_error),
-                             duration_text(result.outcome.time));
-  }
-  return fmt::format("{}; {}: {}",
-                     result.n_certain() == std::size_t{0}
-                         ? "no sub-impact is certain"
-                         : "times of the certain ones to " + error_text(found.largest_error),
-                     place_of_doubt(result, found), words_of(found.reason));
-}
-
 std::string first_failure_text(const Outcome& outcome) {
   const Interval& failure = *outcome.first_failure;
   return fmt::format("results up to {} passed every check; first failure between {:.6g} and {}",
@@ -81,7 +65,18 @@ std::string error_words(const Result& result) {
   }
   const ErrorEstimate& estimate = *result.error_estimate;
   if (result.sub_impacts.empty() && result.all_certain()) return {};
-  return certain_text(result, estimate);
+  if (!estimate.first_unresolved) {
+    return has_first_touch_alone(result)
+               ? "no event time up to " + duration_text(result.outcome.time) +
+                     " but the first touch, which is exact"
+               : fmt::format("all times to {} up to {}", error_text(estimate.largest_error),
+                             duration_text(result.outcome.time));
+  }
+  return fmt::format("{}; {}: {}",
+                     result.n_certain() == std::size_t{0}
+                         ? "no sub-impact is certain"
+                         : "times of the certain ones to " + error_text(estimate.largest_error),
+                     place_of_doubt(result, estimate), words_of(estimate.reason));
 }
 
 std::string certain_words(const Result& result) {
