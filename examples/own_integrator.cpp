@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "subimpact/report/text.h"
-#include "subimpact/study/compare.h"
+#include "subimpact/study/studies.h"
 #include "velocity_verlet.h"
 
 int main() {

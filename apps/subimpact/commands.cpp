@@ -14,7 +14,7 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/report/text.h"
 #include "subimpact/simulate/options.h"
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact::app {

@@ -2,9 +2,8 @@
 #include <algorithm>
 
 #include "commands.h"
-#include "subimpact/report/studies.h"
 #include "subimpact/report/text.h"
-#include "subimpact/study/compare.h"
+#include "subimpact/study/studies.h"
 
 namespace subimpact::app {
 namespace {

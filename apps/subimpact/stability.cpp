@@ -1,6 +1,6 @@
 #include "commands.h"
 #include "io/directory/listed_files.h"
-#include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact::app {
 namespace {

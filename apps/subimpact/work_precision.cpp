@@ -1,7 +1,7 @@
 #include "commands.h"
 #include "io/directory/listed_files.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace subimpact::python {

@@ -20,8 +20,8 @@
 #include "study/refinement/refinement.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/report/studies.h"
-#include "subimpact/study/judgement/match.h"
+#include "subimpact/report/text.h"
+#include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/other_mesh.h"
 #include "subimpact/study/run_as_asked.h"
 

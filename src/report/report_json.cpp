@@ -156,10 +156,6 @@ Json columns_json(const OutputOptions& output) {
 
 }  // namespace
 
-std::string printed_report(const Case& input, const Result& result) {
-  return run_summary(input, result) + '\n' + sub_impact_table(result);
-}
-
 std::string report_json(const Case& input, const Result& result) {
   Json meanings = Json::object();
   for (const auto& [name, meaning] : listing_of(run_record())) meanings[name] = meaning;
@@ -173,7 +169,7 @@ std::string report_json(const Case& input, const Result& result) {
                      {"strikes", result.strikes.empty() ? "" : strike_table(result)},
                      {"computed_in", duration_text(result.work.all_seconds)},
                      {"brief", result.brief_report()},
-                     {"printed", printed_report(input, result)},
+                     {"printed", run_summary(input, result) + '\n' + sub_impact_table(result)},
                      {"verbose", run_summary(input, result, true)},
                      {"case", case_file_text(input)},
                      {"scene", scene_json(input, result)},

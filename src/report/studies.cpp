@@ -1,4 +1,4 @@
-#include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include "simulate/settings/refuse.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
-#include "subimpact/report/text.h"
 
 namespace subimpact {
 std::string outcome_table(const OutcomeMap& map) {

@@ -1,4 +1,4 @@
-#include "subimpact/simulate/reason.h"
+#include "subimpact/simulate/assessment.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 
 #include "case/meshes.h"
 #include "study/refinement/refinement.h"
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 
 namespace subimpact {
 namespace {

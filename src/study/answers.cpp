@@ -83,7 +83,7 @@ class Answers {
     add_supports();
     const Energies& end = result_.final_energies;
     const bool has_energy = end.taken_up() > 0.0;
-    add(AnswerKey::energy, "J", has_energy ? std::optional(dissipated(end)) : std::nullopt,
+    add(AnswerKey::energy, "J", has_energy ? std::optional(end.dissipated()) : std::nullopt,
         not_computed, RunTotal::dissipated);
     for (Answer& answer : all_) {
       if (answer.value && result_.body_errors) add_body_error(*result_.body_errors, answer);
@@ -223,11 +223,11 @@ class Answers {
                       has_set ? std::optional(std::abs(most_set->set_from_supports)) : std::nullopt,
                       why, RunTotal::permanent_set);
     if (has_set) set.position = most_set->position;
-    const auto most = largest([](const EnvelopeRow& row) { return magnitude(row.strain); });
+    const auto most = largest([](const EnvelopeRow& row) { return row.strain.magnitude(); });
     const bool has_share = has_fields && why == stays_elastic;
     Answer& share =
         add(AnswerKey::yield_share, "",
-            has_share ? std::optional(magnitude(most->strain) / first_yield) : std::nullopt,
+            has_share ? std::optional(most->strain.magnitude() / first_yield) : std::nullopt,
             has_yielded            ? yields
             : why == stays_elastic ? not_computed
                                    : why,

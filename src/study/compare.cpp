@@ -1,4 +1,4 @@
-#include "subimpact/study/compare.h"
+#include "subimpact/study/studies.h"
 
 #include <algorithm>
 

@@ -12,7 +12,7 @@
 #include "study/judgement/totals.h"
 #include "subimpact/study/answers.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/model/body_errors.h"
+#include "subimpact/study/model.h"
 
 namespace subimpact {
 namespace {

@@ -1,4 +1,4 @@
-#include "subimpact/study/stability.h"
+#include "subimpact/study/studies.h"
 
 #include <fmt/format.h>
 

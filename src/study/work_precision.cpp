@@ -1,4 +1,4 @@
-#include "subimpact/study/work_precision.h"
+#include "subimpact/study/studies.h"
 
 #include <fmt/format.h>
 

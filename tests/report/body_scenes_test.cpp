@@ -6,7 +6,7 @@
 
 #include "case_with.h"
 #include "subimpact/study/answers.h"
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 #include "subimpact/study/run_as_asked.h"
 #include "testing.h"
 

@@ -1,8 +1,8 @@
-#include "subimpact/study/compare.h"
 #include "elastic_case.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/run_as_asked.h"
+#include "subimpact/study/studies.h"
 #include "testing.h"
 
 namespace subimpact {

@@ -3,8 +3,7 @@
 #include "../../examples/velocity_verlet.h"
 #include "elastic_case.h"
 #include "judgement/coverage.h"
-#include "subimpact/study/compare.h"
-#include "subimpact/study/work_precision.h"
+#include "subimpact/study/studies.h"
 #include "testing.h"
 
 namespace subimpact {

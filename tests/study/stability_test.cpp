@@ -1,6 +1,6 @@
 // Methods fail where theory says, and the user is told.
 
-#include "subimpact/study/stability.h"
+#include "subimpact/study/studies.h"
 
 #include "paper_run.h"
 #include "print.h"

@@ -1,7 +1,7 @@
-#include "subimpact/study/work_precision.h"
 #include "paper_run.h"
 #include "print.h"
-#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/judgement/event_errors.h"
+#include "subimpact/study/studies.h"
 
 namespace subimpact {
 namespace {

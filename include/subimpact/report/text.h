@@ -1,7 +1,10 @@
 #pragma once
 
-/// Results as text for people: microseconds, millimetres, newtons.
+/// Results and studies as text for people, in microseconds, millimetres and newtons, and as CSV and
+/// JSON files. Functions that write files throw OutputError.
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,8 +12,9 @@
 #include "subimpact/case/case.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
+#include "subimpact/io/output_directory.h"
 #include "subimpact/simulate/result.h"
-#include "subimpact/study/compare.h"
+#include "subimpact/study/studies.h"
 
 namespace subimpact {
 
@@ -58,16 +62,12 @@ void make_answers(const Case& input, Result& result);
 /// and work. Of a result with answers (make_answers).
 std::string run_summary(const Case& input, const Result& result, bool verbose = false);
 
-/// The summary and the table of sub-impacts, as a run prints them.
-/// This and the next: of a result with answers (make_answers).
-std::string printed_report(const Case& input, const Result& result);
-
 /// The version of the layout of report.json, its key "layout".
 constexpr int report_layout = 1;
 
 /// report.json: what a page shows of a run beside summary.json and its tables, rounded as the
 /// screen rounds it: the table of sub-impacts, doubts, the case with every choice, and what a
-/// drawing needs of the scene.
+/// drawing needs of the scene. Of a result with answers (make_answers).
 std::string report_json(const Case& input, const Result& result);
 
 /// For a run that did not complete: one line with time, mode, method, last event, cause, the times
@@ -95,5 +95,27 @@ std::string method_listing();
 
 /// A duration in the unit that suits its size: "12.3 us", "8 ms", "3.4 s".
 std::string duration_text(double seconds);
+
+/// Writes comparison.csv (one row per method) and matches.csv (one row per method and sub-impact).
+void write_comparison(const std::filesystem::path& directory, const Comparison& comparison);
+std::string comparison_csv(const Comparison& comparison);
+std::string matches_csv(const Comparison& comparison);
+
+/// The reference, one line per point, and why a point is not right, in words.
+std::string work_precision_table(const WorkPrecision& study);
+
+/// One sentence for each wanted error.
+std::string recommendation_text(const std::vector<Recommendation>& recommendations);
+
+/// work_precision.csv: one row per point of each study.
+std::string work_precision_csv(const std::vector<WorkPrecision>& studies);
+
+/// Identifies a case: a fingerprint of the program's version and of all keys except the title, the
+/// outputs and those that a study sets (method, table, tolerance, step).
+std::string case_id(const Case& input);
+
+/// One letter for each run, and outcomes.csv, one row for each.
+std::string outcome_table(const OutcomeMap& map);
+std::string outcomes_csv(const OutcomeMap& map);
 
 }  // namespace subimpact

@@ -1,7 +1,10 @@
 #pragma once
 
-/// What other runs of the same case, or of cases near it, show of a run. Studies fill it
-/// (study/judgement.h, study/run_as_asked.h); it is empty without them.
+/// What other runs of the same case, or of cases near it, show of a run, and what a strike tells.
+/// Studies fill the assessment (study/judgement/judgement.h, study/run_as_asked.h); it is empty
+/// without them. Answers, each with both of its errors, and a verdict are made by study/answers.h;
+/// make_answers() (report/text.h) adds their words; screen, files, pages and Python show these and
+/// nothing else.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,9 +13,38 @@
 #include <string_view>
 #include <vector>
 
-#include "subimpact/simulate/reason.h"
-
 namespace subimpact {
+
+/// Why something about a run is not certain, or was not reached: a kind and the numbers of its
+/// sentence, in SI units; those that a kind does not have are 0.
+struct Reason {
+  // clang-format off
+  enum class Kind {
+    in_words,  ///< `what` is the sentence
+    // A sub-impact, or the flight after one, in the run beside that `what` describes.
+    missing_beside, split_beside, one_beside, another_beside, stopped_beside,
+    // Lengths (m or s) below their errors; joined: openings too near to `limit`.
+    indentation, opening_before, opening_after, joined_before, joined_after, joined_within,
+    duration, separation_before, separation_after, nearly_opens, nearly_closes,
+    // What mesh or steps do not show.
+    heavy_part, near_end, unended_contact, short_contact, short_separation, yielding_elements,
+    loose_tolerance,
+    // Why event times are not within a tolerance, and why no finer mesh is run.
+    error_of_times, no_run_beside, fixed_key, work_limit, default_work_limit, finest_mesh, memory,
+    failed_run, stopped_search
+  };
+  // clang-format on
+  Kind kind = Kind::in_words;
+  std::string what = {};  ///< a run beside, a key or a message from elsewhere
+  double value = 0.0, error = 0.0, limit = 0.0;
+  double time = 0.0;                           ///< s
+  std::optional<std::size_t> sub_impact = {};  ///< from 0: named by the sentence
+  bool operator==(const Reason&) const = default;
+};
+
+/// The sentence, without a full stop; empty without a reason.
+std::string words_of(const Reason& reason);
+std::string words_of(const std::optional<Reason>& reason);
 
 /// Whether a sub-impact is certain, and the errors of its numbers.
 struct SubImpactAssessment {
@@ -190,6 +222,73 @@ struct Assessment {
 
   /// Whether it is certain that there are these sub-impacts and no others.
   bool all_certain() const { return error_estimate && !error_estimate->first_unresolved; }
+};
+
+// clang-format off
+/// Numbers: sub_impacts, joined (if contacts parted by little count as one), zones (Answer::items
+/// has each). N: largest_force, supports (the one of largest magnitude). s: first_parting (end of
+/// the first contact parted by more than 1 um), contact_end (of the last), rests_since (start of a
+/// contact without end). m/s: striker_velocity, at the end. m: indentation (largest), dent,
+/// permanent_set (largest, against the supports). Pa: contact_pressure, at the largest force. J:
+/// energy, dissipated. Ratios: restitution, yield_share (largest strain of a beam that stays
+/// elastic, over that of first yield).
+enum class AnswerKey {
+  sub_impacts, joined, largest_force, first_parting, contact_end, rests_since, striker_velocity,
+  restitution, impulse, zones, indentation, dent, contact_pressure, permanent_set, yield_share,
+  supports, energy
+};
+
+/// Why an answer is not there.
+enum class WhyNot {
+  no_contact, in_contact, approaching, met_at_rest,  // of the bodies, at the end
+  none_uncertain,                                    // there is nothing to join
+  does_not_rest, fixed, stays_elastic, yields, no_yield_stress, no_moduli, not_computed, no_supports,
+  turns_too_far                                      // Result::turns_too_far()
+};
+
+// clang-format on
+
+struct Answer {
+  struct Part {
+    BodyPart kind;
+    std::optional<double> change;  ///< magnitude; none: not known
+    /// Words: "contact law", the change in the unit of the answer's text, what to do about it.
+    std::string label = {}, text = {}, remedy = {};
+  };
+  /// One of a list: a zone, from 1. Its end is that of the run where it has none.
+  struct Item {
+    int number = 0, n_subzones = 1;
+    bool has_end = true;
+    Total sub_impacts, start, end, impulse;                            ///< s, N s
+    std::optional<double> start_body_error = {}, end_body_error = {};  ///< s; none: not known
+    /// Words: all of it; "from 5.1 ms: 2 sub-impacts", and the errors of that time.
+    std::string text = {}, begin_text = {}, error_text = {}, body_text = {};
+  };
+  AnswerKey key;
+  std::string_view unit = {};             ///< SI: "N"; empty: a number
+  std::optional<double> value = {};       ///< none: `why` says why not
+  std::optional<double> error = {};       ///< of the computation; none: not known
+  std::optional<double> body_error = {};  ///< sum of the parts; none: not known
+  std::vector<Part> parts = {};  ///< of the body's error: those not known, then the largest
+  std::optional<WhyNot> why = {};
+  std::optional<bool> certain = {};     ///< of an event: whether it is; none: not judged
+  std::optional<double> time = {};      ///< s, when
+  std::optional<double> position = {};  ///< m from the beam's first end, where
+  std::optional<double> from = {};      ///< of an uncertain event: it lies between this and `value`
+  std::vector<Item> items = {};
+  /// Words; errors are in the unit of the text.
+  std::string label = {}, text = {}, error_text = {}, body_text = {}, total_text = {}, note = {};
+};
+
+/// First words on a run.
+struct StrikeVerdict {
+  enum class Certainty { not_known, none, some, all };  ///< of the sub-impacts
+  enum class Contact { none, over, may_not_be_over, not_over, rests };
+  enum class Beam { rigid, elastic, bent, not_computed, turned_too_far };
+  Certainty certainty = Certainty::not_known;
+  Contact contact = Contact::none;
+  Beam beam = Beam::rigid;
+  std::string text;
 };
 
 }  // namespace subimpact

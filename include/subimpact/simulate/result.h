@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "subimpact/ode/work_counts.h"
-#include "subimpact/simulate/answers.h"
 #include "subimpact/simulate/assessment.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/records.h"
@@ -90,6 +91,7 @@ struct EnvelopeRow {
       if (value < smallest.value) smallest = {value, time};
       if (value > largest.value) largest = {value, time};
     }
+    double magnitude() const { return std::max(std::abs(largest.value), std::abs(smallest.value)); }
   };
   double position = 0.0;       ///< x, m
   Range displacement;          ///< m

@@ -18,6 +18,7 @@ struct Energies {
   double beam_damping = 0.0;     ///< D_b, dissipated by the damping of the beam and its supports
   double work = 0.0;             ///< W, of gravity and loads since the start
 
+  double dissipated() const { return bending_plastic + contact_plastic + beam_damping; }
   /// Energy in the bodies and the contact, dissipated energy included.
   double taken_up() const {
     return striker + beam_kinetic + bending_elastic + bending_plastic + contact_elastic +

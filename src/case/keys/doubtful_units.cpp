@@ -162,7 +162,7 @@ constexpr double least_pull = 0.01;          // over the largest force of a supp
 void add_pulls(const Beam& beam, const Result& result, std::vector<Beyond>& found) {
   double largest = 0.0;
   for (const auto& forces : result.reactions) {
-    if (forces) largest = std::max({largest, forces->largest.value, -forces->smallest.value});
+    if (forces) largest = std::max(largest, forces->magnitude());
   }
   std::optional<std::size_t> pulls;  // the end that does most
   for (const std::size_t end : {0, 1}) {
@@ -203,9 +203,7 @@ std::vector<Beyond> beyond_the_model(const Case& input, const Result& result) {
       "{} by up to {:.2g} rad: the model is for rotations below {} rad",
       is_rigid ? "the beam turns" : "sections turn", result.largest_rotation, largest_rotation);
   double strain = 0.0;
-  for (const EnvelopeRow& row : result.envelope) {
-    strain = std::max({strain, row.strain.largest.value, -row.strain.smallest.value});
-  }
+  for (const EnvelopeRow& row : result.envelope) strain = std::max(strain, row.strain.magnitude());
   const double first_yield = beam.yield_stress / beam.youngs_modulus;
   add(input.model.section == SectionKind::elastic && strain > first_yield, "section_yields",
       "sections are strained up to {:.2g} times as far as they stay elastic, which "

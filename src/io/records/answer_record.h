@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/records/record.h"
-#include "subimpact/simulate/answers.h"
+#include "subimpact/simulate/assessment.h"
 
 namespace subimpact {
 

@@ -24,7 +24,7 @@
 #include <variant>
 #include <vector>
 
-#include "subimpact/simulate/reason.h"
+#include "subimpact/simulate/assessment.h"
 
 namespace subimpact {
 

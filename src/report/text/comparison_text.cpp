@@ -9,7 +9,6 @@
 #include "report/study_columns.h"
 #include "report/text/uncertain.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/report/studies.h"
 #include "subimpact/report/text.h"
 
 namespace subimpact {

@@ -169,9 +169,7 @@ std::string details(const Case& input, const Result& result) {
     text += labelled(label, words);
   };
   if (!result.envelope.empty() && result.used.bends()) {
-    const auto size = [](const EnvelopeRow& row) {
-      return std::max(row.moment.largest.value, -row.moment.smallest.value);
-    };
+    const auto size = [](const EnvelopeRow& row) { return row.moment.magnitude(); };
     const EnvelopeRow& most = *std::ranges::max_element(result.envelope, {}, size);
     line("bending",
          fmt::format("moment up to {} at {:.4g} m",

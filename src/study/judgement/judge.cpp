@@ -5,7 +5,7 @@
 
 #include "numerics/estimates.h"
 #include "study/judgement/mesh_resolution.h"
-#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 namespace subimpact {
 namespace {

@@ -1,4 +1,4 @@
-#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 
 #include "numerics/estimates.h"
 #include "study/judgement/judge.h"
-#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
@@ -61,7 +61,7 @@ const Quantity quantities[] = {
     {RunTotal::permanent_set, [](Run run, double) { return largest_magnitude(run.envelope, &EnvelopeRow::set_from_supports); }, usual_safety, From::shapes},
     {RunTotal::hinge_rotation, [](Run run, double) { return largest_magnitude(run.plastic_zones, &PlasticZone::rotation); }, usual_safety, From::shapes},
     {RunTotal::striker_energy_share, [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
-    {RunTotal::dissipated, [](Run run, double) { return dissipated(run.final_energies); }, safety_of_dissipated},
+    {RunTotal::dissipated, [](Run run, double) { return run.final_energies.dissipated(); }, safety_of_dissipated},
 };
 // clang-format on
 
@@ -125,7 +125,7 @@ double largest_near(const Result& run, double position, double width,
       std::ranges::lower_bound(run.envelope, position - width, {}, &EnvelopeRow::position);
   double largest = 0.0;
   for (auto row = from; row != run.envelope.end() && row->position <= position + width; ++row) {
-    largest = std::max(largest, magnitude((*row).*range));
+    largest = std::max(largest, ((*row).*range).magnitude());
   }
   return largest;
 }

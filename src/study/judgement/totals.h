@@ -18,14 +18,6 @@ double largest_magnitude(const std::vector<Row>& rows, Value value) {
   return largest;
 }
 
-inline double magnitude(const EnvelopeRow::Range& range) {
-  return std::max(std::abs(range.largest.value), std::abs(range.smallest.value));
-}
-
-inline double dissipated(const Energies& end) {
-  return end.bending_plastic + end.contact_plastic + end.beam_damping;
-}
-
 /// Sets the totals of an error estimate: numbers of the run as a whole, each with the largest of
 /// 3.8 gain |difference| over the runs beside it, summed over the parts (mean velocity of the beam:
 /// 5, dissipated energy: 5.5, largest force and indentation: 7; 1.5 times more for a part of one

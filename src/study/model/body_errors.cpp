@@ -1,4 +1,4 @@
-#include "subimpact/study/model/body_errors.h"
+#include "subimpact/study/model.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "study/model/body_parts.h"
 #include "study/model/body_runs.h"
 #include "study/model/coarse_strike.h"
-#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 namespace subimpact {
 namespace {

@@ -8,7 +8,7 @@
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "model/contact/contact_laws.h"
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 
 namespace subimpact {
 namespace {

@@ -1,4 +1,4 @@
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,7 +4,7 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
-#include "subimpact/study/compare.h"
+#include "subimpact/study/studies.h"
 
 static_assert(__cplusplus >= 202002L, "C++20 comes with subimpact::subimpact");
 #ifdef FMT_SHARED

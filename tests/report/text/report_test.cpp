@@ -1,4 +1,3 @@
-#include "subimpact/report/studies.h"
 #include "subimpact/report/text.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "print.h"
-#include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "subimpact/simulate/result.h"
-#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/judgement/event_errors.h"
 #include "testing.h"
 
 namespace subimpact {

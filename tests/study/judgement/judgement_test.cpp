@@ -7,7 +7,7 @@
 
 #include "one_account.h"
 #include "paper_run.h"
-#include "subimpact/study/judgement/match.h"
+#include "subimpact/study/judgement/event_errors.h"
 #include "testing.h"
 
 namespace subimpact {

@@ -1,10 +1,10 @@
 // How far the body itself may be from the exact solution of the model.
 
-#include "subimpact/study/model/body_errors.h"
 #include "elastic_case.h"
 #include "study/model/body_runs.h"
 #include "study/model/coarse_strike.h"
 #include "subimpact/case/simulate.h"
+#include "subimpact/study/model.h"
 #include "subimpact/study/refinement/within.h"
 #include "testing.h"
 

@@ -3,7 +3,7 @@
 #include "elastic_case.h"
 #include "study/model/body_parts.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 #include "testing.h"
 
 namespace subimpact {

@@ -1,6 +1,6 @@
 // Theory and contact law, chosen by the scene where the case leaves them open.
 
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 
 #include <random>
 

@@ -20,7 +20,7 @@
 
 #include "simulate/run_parts.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace {

@@ -26,8 +26,7 @@
 #include "study/model/coarse_strike.h"
 #include "study/parallel.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/study/model/body_errors.h"
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace {

@@ -10,8 +10,8 @@
 
 #include "random_scenes/scene_keys.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/judgement/match.h"
 
 namespace subimpact::scenes {
 namespace {

@@ -15,8 +15,8 @@
 
 #include "draws.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/judgement/match.h"
 
 namespace subimpact {
 namespace {

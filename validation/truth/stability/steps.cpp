@@ -17,7 +17,7 @@
 #include "study/parallel.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/options.h"
-#include "subimpact/study/model/scene_choice.h"
+#include "subimpact/study/model.h"
 #include "system/contact/contact_resonance.h"
 
 namespace subimpact {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/study/stability.h"
+#include "subimpact/study/studies.h"
 
 namespace subimpact {
 

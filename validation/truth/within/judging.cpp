@@ -5,8 +5,8 @@
 
 #include "numerics/estimates.h"
 #include "study/refinement/refinement.h"
+#include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/judgement/match.h"
 #include "subimpact/study/other_mesh.h"
 #include "subimpact/study/refinement/within.h"
 
