@@ -1,46 +1,19 @@
 #include "commands.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <string_view>
 #include <thread>
 
-#include "case/keys/slips.h"
 #include "case/keys/units.h"
 #include "io/printable.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/report/text.h"
-#include "subimpact/simulate/options.h"
 #include "subimpact/study/model.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact::app {
 namespace {
-
-std::vector<std::string> table_names(const std::string& method) {
-  std::vector<std::string> names;
-  for (const MethodTable& table : method_tables()) {
-    if (to_string(table.method) == method) names.push_back(table.name);
-  }
-  return names;
-}
-
-// Refuses a part of an `option` that is not one of `names`. `method`: to which the names belong;
-// `meant`: a name that is known to stand for the unknown one.
-void check_name(const std::string& option, const char* what, const std::string& name,
-                const std::vector<std::string>& names, const std::string& method = {}) {
-  if (std::ranges::find(names, name) != names.end()) return;
-  const std::string meant = nearest_name(name, names);
-  throw CaseFileError(fmt::format(
-      "--methods {}: unknown {} \"{}\"; allowed{}: {}; {}", option, what, name,
-      method.empty() ? "" : " for " + method, fmt::join(names, ", "),
-      meant.empty()
-          ? "see `subimpact methods`"
-          : fmt::format("did you mean \"{}{}\"?", method.empty() ? "" : method + ":", meant)));
-}
 
 // A refusal of a text that does not fit. `allowed`: what fits, in words.
 template <class Fits>
@@ -189,26 +162,14 @@ bool write_after_printing(OutputDirectory& directory,
   return true;
 }
 
-void check_method_names(const std::vector<std::string>& methods) {
-  for (const std::string& option : methods) {
-    const auto [method, table, events] = parse_method_name(option);
-    check_name(option, "method", method, find_case_key("solver.method")->choice_names());
-    const std::vector<std::string> tables = table_names(method);
-    if (table && tables.empty()) {
-      throw CaseFileError(fmt::format("--methods {}: {} has no tables; write --methods {}", option,
-                                      method, method));
-    }
-    if (table) check_name(option, "table", *table, tables, method);
-    if (events) {
-      check_name(option, "treatment of events", *events,
-                 find_case_key("solver.events")->choice_names());
+void check_methods(const Case& input, const std::vector<std::string>& methods) {
+  for (const std::string& method : methods) {
+    try {
+      settings_of(input, method);
+    } catch (const InvalidCase& error) {
+      throw CaseFileError(fmt::format("--methods {}: {} {}", method, error.key, error.message));
     }
   }
-}
-
-void check_methods(const Case& input, const std::vector<std::string>& methods) {
-  check_method_names(methods);
-  for (const std::string& method : methods) settings_of(input, method);
 }
 
 void note_swept(const LoadedCase& loaded) {

@@ -103,9 +103,8 @@ struct StudyOptions {
   Jobs jobs = n_processors();
 };
 
-/// Refuses methods and tables that do not exist, naming the option --methods. Throws CaseFileError.
-void check_method_names(const std::vector<std::string>& methods);
-/// The same, and throws InvalidCase for a method that cannot run the case.
+/// Refuses methods that do not exist or cannot run the case, naming the option --methods. Throws
+/// CaseFileError.
 void check_methods(const Case& input, const std::vector<std::string>& methods);
 
 inline std::string title_of(const Case& input) {

@@ -62,7 +62,7 @@ int run_comparison(CompareOptions& options) {
         "compare needs --methods, --theories or --laws, with names separated by commas");
   }
   const LoadedCase loaded = options.input.load();
-  check_method_names(options.methods);
+  check_methods(loaded.value, options.methods);
   print_doubts(loaded);
   std::optional<OutputDirectory> directory;
   if (!options.directory.empty()) directory.emplace(options.directory, "compare");

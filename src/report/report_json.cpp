@@ -30,44 +30,26 @@ void add_doubts(const Result& result, std::size_t first, const auto& line) {
     const SubImpact& s = result.sub_impacts[i];
     if (s.certain.value_or(true) || !s.doubt) continue;
     if (++n <= most_doubts) {
-      line(false, fmt::format("sub-impact {}: {}.", i + 1, words_of(s.doubt)));
+      line(false, fmt::format("sub-impact {}: {}", i + 1, words_of(s.doubt)));
     }
   }
-  if (n > most_doubts) line(false, counted(n - most_doubts, "more sub-impact") + ".");
+  if (n > most_doubts) line(false, counted(n - most_doubts, "more sub-impact"));
 }
 
 // What is certain, and what is not.
 Json headlines(const Result& result) {
   Json list = Json::array();
   const auto line = [&](bool certain, const std::string& text) {
-    list.push_back({{"certain", certain}, {"text", text}});
+    list.push_back({{"certain", certain}, {"text", text + "."}});
   };
-  const std::size_t n = result.sub_impacts.size();
-  if (const std::optional<std::size_t> n_certain = result.n_certain()) {
-    const ErrorEstimate& estimate = *result.error_estimate;
-    const std::string within = estimate.largest_error > 0.0 ? ", each start and end within " +
-                                                                  error_text(estimate.largest_error)
-                                                            : "";
-    if (result.all_certain() && n == 0) {
-      line(true, "that there are no sub-impacts.");
-    } else if (result.all_certain()) {
-      line(true,
-           fmt::format("{}{}, and that there are no others.",
-                       n == 1 ? "the one sub-impact" : "all " + counted(n, "sub-impact"), within));
-    } else {
-      if (*n_certain > 0) {
-        line(true, fmt::format("{} of {}{}.", *n_certain, counted(n, "sub-impact"), within));
-      }
-      line(false,
-           fmt::format("{}: {}.", place_of_doubt(result, estimate), words_of(estimate.reason)));
-      add_doubts(result, estimate.first_unresolved.value() + 1, line);
-    }
-  } else {
-    line(false, "event times, count and order of sub-impacts: no error bars were computed.");
+  const std::string certainty = error_words(result);
+  if (!certainty.empty()) line(result.all_certain(), certainty);
+  if (result.error_estimate && result.error_estimate->first_unresolved) {
+    add_doubts(result, *result.error_estimate->first_unresolved + 1, line);
   }
-  line(result.contact_over, "the end of contact: " + contact_over_words(result) + ".");
+  line(result.contact_over, "the end of contact: " + contact_over_words(result));
   if (result.error_estimate && result.error_estimate->finer_meshes) {
-    line(false, finer_meshes_words(result) + ".");
+    line(false, finer_meshes_words(result));
   }
   return list;
 }
@@ -132,20 +114,6 @@ Json scene_json(const Case& input, const Result& result) {
            })}};
 }
 
-// The run in one line.
-std::string scene_words(const Case& input, const Result& result) {
-  const Scene& scene = input.scene;
-  const std::string others = others_in_scene(scene);
-  return fmt::format(
-      "A {} {}{}; outcome: {} at {}.",
-      scene.beam.fixed ? "plane" : fmt::format("beam of {:.4g} kg", scene.beam.mass()),
-      scene.striker.fixed ? std::string("on a stop")
-                          : fmt::format("struck by {:.4g} kg at {:.4g} m/s", scene.striker.mass,
-                                        scene.bodies().striker_velocity()),
-      others.empty() ? "" : " (" + others + ")", to_string(result.outcome.kind),
-      duration_text(result.outcome.time));
-}
-
 Json columns_json(const OutputOptions& output) {
   Json json = Json::object();
   for (const auto& column : run_table<HistoryRow>().columns_of(output)) {
@@ -161,7 +129,7 @@ std::string report_json(const Case& input, const Result& result) {
   for (const auto& [name, meaning] : listing_of(run_record())) meanings[name] = meaning;
   const auto& tolerance = result.tolerance;
   const Json json = {{"layout", report_layout},
-                     {"scene_text", scene_words(input, result)},
+                     {"scene_text", strike_words(input, result) + "."},
                      {"caveat", outcome_caveat(result)},
                      {"headlines", headlines(result)},
                      {"tolerance", tolerance ? tolerance_words(*tolerance, result) : std::string()},

@@ -161,22 +161,16 @@ std::string why_without_effect(const Case& input, const CaseKey& key) {
   return reason == nullptr ? "" : "has no effect with " + setting_text(input, reason);
 }
 
-namespace {
-
-bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
-  return std::ranges::any_of(keys, [&](const char* key) { return given.contain(key); });
-}
-
-}  // namespace
-
 OpenChoices open_choices(const GivenKeys& given) {
+  const auto has_any = [&](std::initializer_list<const char*> keys) {
+    return std::ranges::any_of(keys, [&](const char* key) { return given.contain(key); });
+  };
   OpenChoices open;
-  open.size = !has_any(given, {"model.segments", "model.elements"});
-  open.mesh = open.size && !has_any(given, {"model.mesh", "model.spacing"});
-  open.tolerance = !has_any(given, {"solver.rtol", "solver.step", "solver.max_step"});
-  open.method =
-      open.tolerance && !has_any(given, {"solver.method", "solver.table", "solver.max_order",
-                                         "solver.events", "solver.reversals"});
+  open.size = !has_any({"model.segments", "model.elements"});
+  open.mesh = open.size && !has_any({"model.mesh", "model.spacing"});
+  open.tolerance = !has_any({"solver.rtol", "solver.step", "solver.max_step"});
+  open.method = open.tolerance && !has_any({"solver.method", "solver.table", "solver.max_order",
+                                            "solver.events", "solver.reversals"});
   return open;
 }
 

@@ -246,25 +246,6 @@ std::string words_of(const std::vector<SupportContact>& contacts, const Result& 
   return n > 1 ? fmt::format("{}; {} times", words, n) : words;
 }
 
-// What struck what: "0.201 kg at 15.9 m/s (cylindrical nose of 10 mm) on the middle of ...".
-std::string strike_words(const Case& input, const Result& result) {
-  const Scene& scene = input.scene;
-  const double x = scene.striker.position;
-  const std::string where = x == 0.5 ? std::string("the middle")
-                            : x == 0.0 || x == 1.0
-                                ? fmt::format("the {} end", end_name(scene.beam, x == 1.0))
-                                : fmt::format("{:.4g} of the length", x);
-  const std::string others = others_in_scene(scene);
-  const std::size_t n = result.strikes.size();
-  return fmt::format(
-      "{}{}, {}{}", n > 1 ? fmt::format("the last of {}: ", n) : "",
-      striker_words(scene, contact_words(input)),
-      scene.beam.fixed ? std::string("on a plane that does not move")
-                       : fmt::format("at {} of a {}-{} beam of {}", where, end_name(scene.beam, 0),
-                                     end_name(scene.beam, 1), mass_text(scene.beam.mass())),
-      others.empty() ? "" : "; " + others);
-}
-
 // What a beam does on supports that it can lift off, one label and its words for each: "support at
 // 0", "lifts at 142.1 +- 0.1 us, back at 1310 us; 3 times". Contacts of less than a thousandth of
 // the largest force of all supports are left out; empty without such supports.
@@ -321,6 +302,24 @@ std::string others_in_scene(const Scene& scene) {
       fmt::format("beam turning at {:.6g} rad/s about {:.6g} of its length", beam.angular_velocity,
                   beam.used_pivot()));
   return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string strike_words(const Case& input, const Result& result) {
+  const Scene& scene = input.scene;
+  const double x = scene.striker.position;
+  const std::string where = x == 0.5 ? std::string("the middle")
+                            : x == 0.0 || x == 1.0
+                                ? fmt::format("the {} end", end_name(scene.beam, x == 1.0))
+                                : fmt::format("{:.4g} of the length", x);
+  const std::string others = others_in_scene(scene);
+  const std::size_t n = result.strikes.size();
+  return fmt::format(
+      "{}{}, {}{}", n > 1 ? fmt::format("the last of {}: ", n) : "",
+      striker_words(scene, contact_words(input)),
+      scene.beam.fixed ? std::string("on a plane that does not move")
+                       : fmt::format("at {} of a {}-{} beam of {}", where, end_name(scene.beam, 0),
+                                     end_name(scene.beam, 1), mass_text(scene.beam.mass())),
+      others.empty() ? "" : "; " + others);
 }
 
 std::string run_summary(const Case& input, const Result& result, bool verbose) {

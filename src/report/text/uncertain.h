@@ -115,6 +115,9 @@ std::string count_text(const Total& count);
 /// the measure.
 std::string total_text(const Result& result, RunTotal name, double value, const Measure& measure);
 
+/// What struck what: "0.201 kg at 15.9 m/s (cylindrical nose of 10 mm) on the middle of ...".
+std::string strike_words(const Case& input, const Result& result);
+
 /// Where something is not certain: "sub-impact 3", or the flight before it: "after sub-impact 2",
 /// "after the last sub-impact". `found`: with a first doubt.
 std::string place_of_doubt(const Result& result, const ErrorEstimate& found);
