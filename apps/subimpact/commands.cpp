@@ -9,8 +9,8 @@
 #include "io/printable.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/report/text.h"
+#include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/model.h"
-#include "subimpact/study/sweep.h"
 
 namespace subimpact::app {
 namespace {

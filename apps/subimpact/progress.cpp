@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "io/printable.h"
-#include "subimpact/report/text.h"
 
 namespace subimpact::app {
 namespace {
@@ -39,8 +38,6 @@ void set_handler(int number, void (*handler)(int)) {
   sigaction(number, &action, nullptr);
 }
 
-constexpr std::chrono::milliseconds shortest_pause{100};
-
 }  // namespace
 
 InterruptListener::InterruptListener() {
@@ -67,26 +64,6 @@ void StatusLine::write(const std::string& text) {
 void StatusLine::clear() {
   if (is_dirty_) fmt::print(stderr, "\r\033[K");
   is_dirty_ = false;
-}
-
-void ProgressDisplay::show_run(const std::string& description) {
-  run_ = description + ": ";
-  show(0.0);
-}
-
-void ProgressDisplay::show(double time) {
-  if (quiet_) return;
-  line_.write(fmt::format("{}{} of {} ({:.0f} %)", run_, duration_text(time),
-                          duration_text(end_time_), 100.0 * time / end_time_));
-}
-
-bool ProgressDisplay::operator()(double time) {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_ >= shortest_pause) {
-    last_ = now;
-    show(time);
-  }
-  return !listener_.interrupted();
 }
 
 }  // namespace subimpact::app

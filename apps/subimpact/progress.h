@@ -2,7 +2,6 @@
 
 /// What a command shows while it runs, and the signals that ask it to end.
 
-#include <chrono>
 #include <string>
 
 namespace subimpact::app {
@@ -41,28 +40,6 @@ class StatusLine {
 
  private:
   bool is_dirty_ = false;
-};
-
-class ProgressDisplay {
- public:
-  ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener)
-      : listener_(listener), end_time_(end_time), quiet_(quiet) {}
-
-  /// What is running, shown before the time.
-  void show_run(const std::string& description);
-
-  /// Returns false once the program was asked to end.
-  bool operator()(double time);
-
- private:
-  void show(double time);
-
-  const InterruptListener& listener_;
-  double end_time_;
-  bool quiet_;
-  std::string run_;
-  StatusLine line_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace subimpact::app

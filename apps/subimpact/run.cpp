@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 
 #include "commands.h"
 #include "report/text/uncertain.h"
@@ -21,6 +22,43 @@ struct RunOptions {
   std::string error_bars;  // empty, "off" or "all"
   Jobs jobs = n_processors();
   bool quiet = false;
+};
+
+// The time that a run has reached, on the terminal, ten times per second.
+class ProgressDisplay {
+ public:
+  ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener)
+      : listener_(listener), end_time_(end_time), quiet_(quiet) {}
+
+  // What is running, shown before the time.
+  void show_run(const std::string& description) {
+    run_ = description + ": ";
+    show(0.0);
+  }
+
+  // Returns false once the program was asked to end.
+  bool operator()(double time) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ >= std::chrono::milliseconds(100)) {
+      last_ = now;
+      show(time);
+    }
+    return !listener_.interrupted();
+  }
+
+ private:
+  void show(double time) {
+    if (quiet_) return;
+    line_.write(fmt::format("{}{} of {} ({:.0f} %)", run_, duration_text(time),
+                            duration_text(end_time_), 100.0 * time / end_time_));
+  }
+
+  const InterruptListener& listener_;
+  double end_time_;
+  bool quiet_;
+  std::string run_;
+  StatusLine line_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOptions& options) {

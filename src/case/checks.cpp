@@ -1,6 +1,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -17,39 +18,6 @@ namespace {
 
 // Squares and quotients of two such numbers are finite, on the finest mesh too.
 constexpr double most_decades = 60.0;
-
-struct Factor {
-  const char* key;
-  double power;
-};
-
-struct Quantity {
-  const char* name;
-  const char* unit;
-  std::vector<Factor> factors;
-};
-
-// clang-format off
-const std::vector<Quantity> quantities = {
-    {"mass of the beam", "kg",
-     {{"beam.density", 1}, {"beam.width", 1}, {"beam.thickness", 1}, {"beam.length", 1}}},
-    {"moment of inertia of the beam", "kg m2",
-     {{"beam.density", 1}, {"beam.width", 1}, {"beam.thickness", 1}, {"beam.length", 3}}},
-    {"rotary inertia of the sections", "kg m",
-     {{"beam.density", 1}, {"beam.width", 1}, {"beam.thickness", 3}}},
-    {"bending stiffness", "N m2",
-     {{"beam.youngs_modulus", 1}, {"beam.width", 1}, {"beam.thickness", 3}}},
-    {"stiffness of the beam", "N/m",
-     {{"beam.youngs_modulus", 1}, {"beam.width", 1}, {"beam.thickness", 3}, {"beam.length", -3}}},
-    {"square of the beam's lowest frequency", "1/s2",
-     {{"beam.youngs_modulus", 1}, {"beam.density", -1}, {"beam.thickness", 2}, {"beam.length", -4}}},
-    {"slenderness of the beam", "", {{"beam.thickness", 1}, {"beam.length", -1}}},
-    {"yield curvature", "1/m",
-     {{"beam.yield_stress", 1}, {"beam.youngs_modulus", -1}, {"beam.thickness", -1}}},
-    {"yield moment", "N m", {{"beam.yield_stress", 1}, {"beam.width", 1}, {"beam.thickness", 2}}},
-    {"energy of the strike", "J", {{"striker.mass", 1}, {"striker.velocity", 2}}},
-};
-// clang-format on
 
 // log10 of a key's value; 0 for a value that is not given, zero or infinite.
 double decades_of(const Case& input, const char* name) {
@@ -70,32 +38,39 @@ double decades_of(const Case& input, const char* name) {
 // Refuses, for the key that is farthest from one, numbers whose products overflow, vanish or lose
 // all digits: each number of a case, and mass, stiffness, frequency and energy of its bodies.
 void check_scales(const Case& input) {
-  // The keys that give the dimensions of a rectangle, of whichever form.
-  const auto given_key = [&](const std::string_view key) {
-    return key == "beam.width"       ? width_key(input.scene.beam)
-           : key == "beam.thickness" ? height_key(input.scene.beam)
-                                     : key.data();
-  };
   for (const CaseKey& key : case_keys()) {
     if (key.type != KeyType::number || !key.get(input)) continue;
     if (std::abs(decades_of(input, key.name.c_str())) > most_decades) {
       refuse_scale(input, key.name.c_str(), ", beyond what a run can follow");
     }
   }
-  for (const Quantity& quantity : quantities) {
-    double decades = 0.0;
-    const Factor* farthest = &quantity.factors.front();
-    const auto share = [&](const Factor& factor) {
-      return factor.power * decades_of(input, given_key(factor.key));
-    };
-    for (const Factor& factor : quantity.factors) {
-      decades += share(factor);
-      if (std::abs(share(factor)) > std::abs(share(*farthest))) farthest = &factor;
-    }
-    if (std::abs(decades) <= most_decades) continue;
-    refuse_scale(input, given_key(farthest->key),
-                 fmt::format(", with which the {} is some 1e{:+.0f}{}{}", quantity.name, decades,
-                             *quantity.unit == '\0' ? "" : " ", quantity.unit));
+  const Beam& beam = input.scene.beam;
+  const std::array keys = {"beam.length",  width_key(beam),       height_key(beam),
+                           "beam.density", "beam.youngs_modulus", "beam.yield_stress",
+                           "striker.mass", "striker.velocity"};
+  std::array<double, keys.size()> decades;
+  std::ranges::transform(keys, decades.begin(), [&](auto* key) { return decades_of(input, key); });
+  const auto [l, b, h, rho, E, Y, m, v] = decades;
+  struct Quantity {
+    const char *name, *unit;
+    double decades;
+  };
+  for (const auto& [name, unit, product] :
+       {Quantity{"mass of the beam", " kg", rho + b + h + l},
+        {"moment of inertia of the beam", " kg m2", rho + b + h + 3.0 * l},
+        {"rotary inertia of the sections", " kg m", rho + b + 3.0 * h},
+        {"bending stiffness", " N m2", E + b + 3.0 * h},
+        {"stiffness of the beam", " N/m", E + b + 3.0 * (h - l)},
+        {"square of the beam's lowest frequency", " 1/s2", E - rho + 2.0 * h - 4.0 * l},
+        {"slenderness of the beam", "", h - l},
+        {"yield curvature", " 1/m", Y - E - h},
+        {"yield moment", " N m", Y + b + 2.0 * h},
+        {"energy of the strike", " J", m + 2.0 * v}}) {
+    if (std::abs(product) <= most_decades) continue;
+    const auto size = [](double x) { return std::abs(x); };
+    const auto farthest = std::ranges::max_element(decades, {}, size) - decades.begin();
+    refuse_scale(input, keys[static_cast<std::size_t>(farthest)],
+                 fmt::format(", with which the {} is some 1e{:+.0f}{}", name, product, unit));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/judgement/judgement.h"
 
 #include <fmt/format.h>
 

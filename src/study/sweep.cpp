@@ -1,4 +1,4 @@
-#include "subimpact/study/sweep.h"
+#include "subimpact/study/judgement/event_errors.h"
 
 #include <fmt/format.h>
 

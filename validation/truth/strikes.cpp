@@ -8,7 +8,7 @@
 #include "case/problem.h"
 #include "draws.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact::strikes {
 namespace {

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int manifest_layout = 1;
+constexpr int manifest_layout = 1, deepest = 16;
 const std::string staging_prefix = ".subimpact-";
 constexpr std::size_t n_identity = 32;  // digits
 constexpr const char* hexadecimal = "0123456789abcdef";
@@ -93,21 +93,30 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
   const fs::path path = directory / manifest_name;
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(path, ignored))) return {};
-  Manifest manifest;
-  read_json(path, read_whole_file(path), "a manifest of this program", "", [&](const Json& json) {
+  const std::string text = read_whole_file(path);
+  // Copies of deeply nested values exhaust the stack.
+  const auto refuse_deep_nesting = [](int depth, Json::parse_event_t, Json&) {
+    if (depth > deepest) fail<ResultsError>("is nested deeper than {}", deepest);
+    return true;
+  };
+  try {
+    const Json json = Json::parse(text, refuse_deep_nesting);
     if (integer<int>(json.at("subimpact_manifest")) > manifest_layout) {
       throw ResultsError("a later version of this program wrote it; use that version");
     }
-    manifest.kind = json.at("kind").get<std::string>();
-    manifest.identity = json.at("identity").get<std::string>();
-    manifest.commit = json.at("commit").get<std::string>();
-    manifest.files = fingerprints_from(json.at("files"));
-    manifest.replaced = fingerprints_from(json.at("replaced"));
+    const auto word = [&](const char* name) { return json.at(name).get<std::string>(); };
+    Manifest manifest = {word("kind"), word("identity"), word("commit"),
+                         fingerprints_from(json.at("files")),
+                         fingerprints_from(json.at("replaced"))};
     if (manifest.commit.find_first_not_of(hexadecimal) != std::string::npos) {
       throw ResultsError("\"commit\" is not a hexadecimal number");
     }
-  });
-  return manifest;
+    return manifest;
+  } catch (const ResultsError& error) {
+    fail<ResultsError>("{}: {}", path.string(), error.what());
+  } catch (const std::exception& error) {  // of JSON
+    fail<ResultsError>("{}: is not a manifest of this program ({})", path.string(), error.what());
+  }
 }
 
 std::string to_json(const Manifest& manifest) {

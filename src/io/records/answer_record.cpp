@@ -1,4 +1,4 @@
-#include "io/records/answer_record.h"
+#include "io/records/run_record.h"
 
 namespace subimpact {
 

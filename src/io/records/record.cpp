@@ -3,12 +3,9 @@
 #include <algorithm>
 
 #include "case/keys/units.h"
-#include "simulate/settings/refuse.h"
 
 namespace subimpact {
 namespace {
-
-constexpr int deepest_json = 16;
 
 Json json_of(const PlacedValues& placed) {
   Json list = Json::array();
@@ -86,22 +83,6 @@ std::optional<KeyValue> placed_in(const Json& list, const CaseKey& key) {
 }
 
 }  // namespace
-
-void read_json(const std::filesystem::path& path, const std::string& text, const char* what,
-               const char* remedy, const std::function<void(const Json&)>& use) {
-  // Copies of deeply nested values exhaust the stack.
-  const auto refuse_deep_nesting = [](int depth, Json::parse_event_t, Json&) {
-    if (depth <= deepest_json) return true;
-    fail<ResultsError>("is nested deeper than {}", deepest_json);
-  };
-  try {
-    use(Json::parse(text, refuse_deep_nesting));
-  } catch (const ResultsError& error) {
-    fail<ResultsError>("{}: {}{}", path.string(), error.what(), remedy);
-  } catch (const std::exception& error) {  // of JSON, or of a name or number in a text
-    fail<ResultsError>("{}: is not {} ({}){}", path.string(), what, error.what(), remedy);
-  }
-}
 
 Json json_of(const KeyValue& value) {
   if (const auto* placed = std::get_if<PlacedValues>(&value)) return json_of(*placed);

@@ -32,11 +32,6 @@ Int integer(const nlohmann::json& json) {
   throw std::out_of_range(fmt::format("{} is not an integer that fits", json.dump()));
 }
 
-/// Calls `use` with what a JSON file holds. Throws ResultsError with the file's path, what is wrong
-/// (what `use` throws, or that the file is not `what`) and the remedy.
-void read_json(const std::filesystem::path& path, const std::string& text, const char* what,
-               const char* remedy, const std::function<void(const Json&)>& use);
-
 /// How a member stands in a file where this is not plain.
 enum class Form {
   plain,          ///< a number that is not finite is null

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include "integrate/sundials.h"
-#include "io/records/answer_record.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
 

@@ -6,7 +6,7 @@
 
 #include "case/counted.h"
 #include "case/problem.h"
-#include "io/records/answer_record.h"
+#include "io/records/run_record.h"
 #include "model/contact/contact_laws.h"
 #include "numerics/units.h"
 #include "report/text/uncertain.h"

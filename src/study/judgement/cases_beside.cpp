@@ -14,7 +14,6 @@
 #include "study/parallel.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {

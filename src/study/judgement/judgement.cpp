@@ -12,7 +12,6 @@
 #include "study/judgement/judge.h"
 #include "study/judgement/mesh_resolution.h"
 #include "study/judgement/totals.h"
-#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {

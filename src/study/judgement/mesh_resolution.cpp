@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "case/meshes.h"
-#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {

@@ -6,7 +6,7 @@
 #include "numerics/estimates.h"
 #include "study/judgement/judge.h"
 #include "subimpact/study/judgement/event_errors.h"
-#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {

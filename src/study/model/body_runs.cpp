@@ -6,7 +6,7 @@
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "study/model/coarse_strike.h"
-#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {

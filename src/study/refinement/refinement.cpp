@@ -8,7 +8,7 @@
 #include "simulate/settings/methods.h"
 #include "study/judgement/mesh_resolution.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {

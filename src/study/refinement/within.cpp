@@ -13,7 +13,7 @@
 #include "study/judgement/mesh_resolution.h"
 #include "study/method_choice.h"
 #include "study/refinement/refinement.h"
-#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {

@@ -5,7 +5,6 @@
 #include "paper_run.h"
 #include "study/judgement/mesh_resolution.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {

@@ -6,7 +6,6 @@
 #include "study/judgement/mesh_resolution.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/other_mesh.h"
 #include "subimpact/study/refinement/within.h"
 
 namespace subimpact {

@@ -6,7 +6,6 @@
 #include "same_results.h"
 #include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {

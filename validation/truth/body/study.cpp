@@ -20,7 +20,7 @@
 
 #include "body/scenes.h"
 #include "case/meshes.h"
-#include "io/records/answer_record.h"
+#include "io/records/run_record.h"
 #include "study/method_choice.h"
 #include "study/model/body_parts.h"
 #include "study/model/coarse_strike.h"

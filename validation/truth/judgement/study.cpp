@@ -24,7 +24,6 @@
 #include "subimpact/io/case_file.h"
 #include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/other_mesh.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace {

@@ -15,7 +15,7 @@
 
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement/event_errors.h"
-#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/judgement/judgement.h"
 
 namespace {
 

@@ -7,7 +7,6 @@
 #include "study/refinement/refinement.h"
 #include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/other_mesh.h"
 #include "subimpact/study/refinement/within.h"
 
 namespace subimpact::wishes {

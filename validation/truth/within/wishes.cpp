@@ -9,7 +9,7 @@
 #include <string>
 
 #include "study/parallel.h"
-#include "subimpact/study/other_mesh.h"
+#include "subimpact/study/judgement/judgement.h"
 #include "subimpact/study/refinement/within.h"
 #include "within/judging.h"
 

@@ -1,14 +1,37 @@
 #pragma once
 
-/// Which results of a run are certain: runs of the same scene beside it, and the judgement by them.
+/// Which results of a run are certain: runs of the same scene beside it, mostly on other meshes,
+/// and the judgement by them.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "subimpact/case/case.h"
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {
+
+struct RefinedRun {
+  Case input;
+  std::string description;
+};
+
+/// The order at which event times of a case converge with its mesh: 2 for cells; 4 for Hermite
+/// elements, or 1 if sections may yield; nothing for a rigid beam.
+std::optional<int> mesh_order(const Case& input);
+
+/// The case on a mesh with `factor` times as many cells or elements, as nearly as the mesh allows;
+/// nothing for a rigid beam or if too few would be left. A fixed step above
+/// the stability limit of the finer mesh is reduced to 0.9 of that limit.
+std::optional<RefinedRun> on_other_mesh(const Case& input, double factor);
+
+/// Number of cells or elements over the whole length; 1 for a rigid beam.
+int mesh_count(const Case& input);
+
+/// "501 cells", "200 elements"; "rigid", "a mesh of its own".
+std::string mesh_words(const Case& input);
 
 /// A case to be run beside another one, from which it differs in mesh, time steps or section.
 struct CaseBeside {
