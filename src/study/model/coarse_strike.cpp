@@ -8,7 +8,7 @@
 #include "study/judgement/totals.h"
 #include "study/method_choice.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/study/refinement/within.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "subimpact/study/refinement/within.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 

@@ -1,4 +1,4 @@
-#include "subimpact/study/refinement/within.h"
+#include "subimpact/study/run_as_asked.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,8 @@
 #include "study/judgement/mesh_resolution.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/refinement/within.h"
+#include "subimpact/study/run_as_asked.h"
+#include "yielding_limit.h"
 
 namespace subimpact {
 namespace {

@@ -5,7 +5,7 @@
 #include "study/model/coarse_strike.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/model.h"
-#include "subimpact/study/refinement/within.h"
+#include "subimpact/study/run_as_asked.h"
 #include "testing.h"
 
 namespace subimpact {

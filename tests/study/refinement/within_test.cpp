@@ -1,11 +1,11 @@
 // Wishes for event times: what the program chooses, and whether the wish is met.
 
-#include "subimpact/study/refinement/within.h"
 #include "elastic_case.h"
 #include "runs.h"
 #include "same_results.h"
 #include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/judgement/judgement.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 namespace {

@@ -7,7 +7,7 @@
 #include "study/refinement/refinement.h"
 #include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/refinement/within.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact::wishes {
 namespace {

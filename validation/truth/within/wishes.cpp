@@ -10,7 +10,7 @@
 
 #include "study/parallel.h"
 #include "subimpact/study/judgement/judgement.h"
-#include "subimpact/study/refinement/within.h"
+#include "subimpact/study/run_as_asked.h"
 #include "within/judging.h"
 
 namespace subimpact::wishes {
