@@ -109,16 +109,11 @@ void check_space(const OutputDirectory& directory, const Case& input) {
 
 }  // namespace
 
-double expected_shapes(const Case& input) {
+double expected_bytes(const Case& input) {
   const double interval = input.output.shape_interval(input.end_time);
-  return interval > 0.0 ? input.end_time / interval : 0.0;
-}
-
-double expected_bytes(const Case& input, std::optional<std::size_t> n_shape_points) {
-  const auto most_points = static_cast<std::size_t>(input.output.shape_points);
-  const double bytes_per_shape =
-      bytes_per_shape_row * static_cast<double>(n_shape_points.value_or(most_points));
-  const double of_shapes = expected_shapes(input) * bytes_per_shape;
+  const double of_shapes =
+      interval > 0.0 ? input.end_time / interval * bytes_per_shape_row * input.output.shape_points
+                     : 0.0;
   if (!input.output.has_history()) return of_shapes;
   const double bytes_per_row =
       bytes_per_history_row +

@@ -25,11 +25,9 @@ constexpr int summary_layout = 6;
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result,
                    const std::string& report = {});
 
-/// Rough size (bytes) of the files of a run: its rows, with `n_shape_points` points in a shape
-/// (ResolvedSettings), or as many as output.shape_points allows.
-double expected_bytes(const Case& input, std::optional<std::size_t> n_shape_points = {});
-/// Expected number of shapes of a run, without those of events.
-double expected_shapes(const Case& input);
+/// Rough size (bytes) of the files of a run: its rows, with as many points in a shape as
+/// output.shape_points allows, and without the shapes of events.
+double expected_bytes(const Case& input);
 
 /// write_results() for a run that has not begun: the directory is locked and checked to be writable
 /// before the run, and rows are written to their files as they are made.

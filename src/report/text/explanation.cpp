@@ -9,6 +9,7 @@
 #include "case/problem.h"
 #include "io/records/run_record.h"
 #include "numerics/units.h"
+#include "report/text/uncertain.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
@@ -58,50 +59,17 @@ std::string yield_velocity_text(const Case& input) {
       leaves_out ? "; the law leaves yielding out, contact.law = \"sphere\" has it" : "");
 }
 
-std::string count_text(double count) {
-  return count < 1e4 ? fmt::format("{:.0f}", count) : fmt::format("{:.1e}", count);
-}
-
-std::string files_text(const Case& input, const ResolvedSettings& used) {
-  const bool has_history = input.output.has_history();
-  const bool has_shapes = used.n_shape_points > 0;
-  if (!has_history && !has_shapes) return "small: no history rows, no shapes";
-  const std::string history =
-      has_history ? count_text(input.end_time / input.output.history_interval(input.end_time)) +
-                        (input.output.interval ? " history rows" : " history rows and more")
-                  : "no history rows";
-  const std::string shapes =
-      has_shapes ? fmt::format("{} shapes of {} points and one per event",
-                               count_text(expected_shapes(input)), used.n_shape_points)
-                 : "no shapes";
-  return fmt::format("about {:.2g} MB: {}, {}", MB * expected_bytes(input, used.n_shape_points),
-                     history, shapes);
-}
-
 std::string line(const char* label, const std::string& value) {
   return fmt::format("  {:<21} {}\n", label, value);
 }
 
 std::string scene_section(const Case& input, const ResolvedSettings& used) {
   const Scene& scene = input.scene;
-  std::string text = "Scene\n";
-  if (scene.beam.fixed) {
-    text += line("beam", "a plane that does not move");
-  } else {
-    const char* axial = scene.beam.stretches() ? ", held along the beam: a tension" : "";
-    text += line("beam", fmt::format("{:.6g} kg; ends {}{}; theory {}", scene.beam.mass(),
-                                     value_text(input, "beam.ends"), axial,
-                                     value_text(input, "beam.theory")));
+  std::string text = fmt::format("Scene\n  {}\n", strike_words(input, {}));
+  if (!scene.beam.fixed) {
+    text += line("theory", value_text(input, "beam.theory"));
     text += line("cross-section", cross_section_text(scene.beam));
   }
-  text +=
-      line("striker", (scene.striker.fixed
-                           ? fmt::format("a stop; {:.6g} J in the beam", used.initial_energy)
-                           : fmt::format("{:.6g} kg at {:.6g} m/s, {:.6g} J", scene.striker.mass,
-                                         scene.bodies().striker_velocity(), used.initial_energy)) +
-                          fmt::format("; struck at {:.6g} of the length", scene.striker.position));
-  if (const std::string others = others_in_scene(scene); !others.empty())
-    text += line("besides", others);
   if (scene.bodies().has_approach_to_compute()) {
     text += line("first touch",
                  fmt::format("computed, over a gap of {:.6g} mm", mm * scene.striker.gap));
@@ -147,7 +115,7 @@ std::string settings_section(const Case& input, const ResolvedSettings& used) {
     text += fmt::format("  {:<32} {}{}\n", name, shown,
                         meaning == meanings.end() ? "" : ": " + meaning->second);
   }
-  return text + line("files", files_text(input, used));
+  return text + line("files", fmt::format("about {:.2g} MB", MB * expected_bytes(input)));
 }
 
 // Processor time: of an evaluation per unknown, from the cheapest to the dearest scenes of
