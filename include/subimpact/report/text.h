@@ -49,10 +49,6 @@ std::string contact_over_words(const Result& result);
 /// has finer_meshes.
 std::string finer_meshes_words(const Result& result);
 
-/// What acts on the bodies besides the strike, and how the beam starts: "gravity 9.81 m/s2, 1
-/// spring"; empty for a beam at rest without loads and springs.
-std::string others_in_scene(const Scene& scene);
-
 /// Sets Result::answers and Result::verdict, with their words: the only place that makes them.
 void make_answers(const Case& input, Result& result);
 

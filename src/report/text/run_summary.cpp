@@ -276,8 +276,8 @@ std::vector<std::pair<std::string, std::string>> support_words(const Case& input
   return lines;
 }
 
-}  // namespace
-
+// What acts on the bodies besides the strike, and how the beam starts: "gravity 9.81 m/s2, 1
+// spring".
 std::string others_in_scene(const Scene& scene) {
   const Beam& beam = scene.beam;
   std::vector<std::string> words;
@@ -303,6 +303,8 @@ std::string others_in_scene(const Scene& scene) {
                   beam.used_pivot()));
   return fmt::format("{}", fmt::join(words, ", "));
 }
+
+}  // namespace
 
 std::string strike_words(const Case& input, const Result& result) {
   const Scene& scene = input.scene;
