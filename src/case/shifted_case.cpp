@@ -14,10 +14,6 @@ namespace {
 
 constexpr double largest_shift = 1e-3;  // that the range of a key must leave room for
 
-double number_of(const Case& input, const CaseKey& key) {
-  return std::get<double>(*key.get(input));
-}
-
 }  // namespace
 
 bool is_number_of_scene(const CaseKey& key) {
@@ -41,7 +37,7 @@ std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key
   if (std::holds_alternative<std::string>(*key.get(input))) {
     return fmt::format("is {}, which is no number to vary", to_text(*key.get(input)));
   }
-  const double x = number_of(input, key);
+  const double x = std::get<double>(*key.get(input));
   const std::string value = fmt::format("is {:g}, ", x);
   if (x == 0.0 || !std::isfinite(x)) {
     return value + "which has no logarithm to derive by; give a finite value other than 0";

@@ -224,35 +224,29 @@ std::string refusal(const CaseKey& key, const std::string& found) {
 }
 
 std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& value) {
+  using enum KeyType;
   const KeyType type = key.type;
   const auto* word = std::get_if<std::string>(&value);
-  if (type == KeyType::number && word && is_choice(key, *word)) return std::nullopt;
-  if (type == KeyType::text && std::holds_alternative<std::string>(value)) return std::nullopt;
-  if (type == KeyType::flag && std::holds_alternative<bool>(value)) return std::nullopt;
-  if (const auto* number = std::get_if<double>(&value); number && type == KeyType::number) {
-    return number_problem(key, *number, value);
+  const auto* real = std::get_if<double>(&value);
+  const auto* whole = std::get_if<std::int64_t>(&value);
+  const auto* names = std::get_if<std::vector<std::string>>(&value);
+  const auto* list = std::get_if<std::vector<double>>(&value);
+  const auto* things = std::get_if<PlacedValues>(&value);
+  const bool is_word = word && (type == text || (type == number && is_choice(key, *word)));
+  const bool is_empty = names && names->empty() && (type == numbers || type == placed);
+  const bool is_flag = type == flag && std::holds_alternative<bool>(value);
+  if (is_word || is_empty || is_flag) return std::nullopt;
+  if (word && type == choice) return choice_problem(key, *word);
+  if (real && type == number) return number_problem(key, *real, value);
+  if (whole && (type == number || type == count)) {
+    return number_problem(key, static_cast<double>(*whole), value);
   }
-  const bool is_number = type == KeyType::number || type == KeyType::count;
-  if (const auto* count = std::get_if<std::int64_t>(&value); count && is_number) {
-    return number_problem(key, static_cast<double>(*count), value);
-  }
-  if (const auto* name = std::get_if<std::string>(&value); name && type == KeyType::choice) {
-    return choice_problem(key, *name);
-  }
-  if (const auto* names = std::get_if<std::vector<std::string>>(&value)) {
-    if (type == KeyType::pair) return pair_problem(key, *names, value);
-    if (type == KeyType::numbers && names->empty()) return std::nullopt;
-    if (type == KeyType::placed && names->empty()) return std::nullopt;
-  }
-  if (const auto* placed = std::get_if<PlacedValues>(&value); placed && type == KeyType::placed) {
-    return placed_problem(key, *placed);
-  }
-  if (const auto* numbers = std::get_if<std::vector<double>>(&value);
-      numbers && type == KeyType::numbers) {
-    for (const double number : *numbers) {
-      if (auto problem = number_problem(key, number, value)) return problem;
-    }
-    return std::nullopt;
+  if (names && type == pair) return pair_problem(key, *names, value);
+  if (things && type == placed) return placed_problem(key, *things);
+  if (list && type == numbers) {
+    const auto fits = [&](double x) { return key.limits.hold(x); };
+    return std::ranges::all_of(*list, fits) ? std::nullopt
+                                            : std::optional(refusal(key, to_text(value)));
   }
   return refusal(key, typed(value)) + spelling_hint(key, value);
 }
