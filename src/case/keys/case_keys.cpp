@@ -169,18 +169,13 @@ std::vector<Choice> material_choices() {
   return choices;
 }
 
-// "adams, bdf: "step-end"; others: "located"", for two values of which most methods take `located`.
-template <class Member>
-std::string by_method(Member member) {
+// "adams, bdf": the methods of which that holds.
+std::string names_if(bool (*holds)(const MethodDescriptor&)) {
   std::vector<std::string> names;
-  std::string value;
   for (const MethodDescriptor& method : methods()) {
-    const auto choice = member(method);
-    if (choice == decltype(choice)::located) continue;
-    names.emplace_back(method.name);
-    value = name_of(choice);
+    if (holds(method)) names.emplace_back(method.name);
   }
-  return fmt::format("{}: \"{}\"; others: \"located\"", fmt::join(names, ", "), value);
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string usual_orders() {
@@ -189,15 +184,6 @@ std::string usual_orders() {
     if (method.order) orders.push_back(fmt::format("{}: {}", method.name, method.order->usual));
   }
   return fmt::format("{}", fmt::join(orders, "; "));
-}
-
-std::string default_step() {
-  std::vector<std::string> fixed;
-  for (const MethodDescriptor& method : methods()) {
-    if (method.has_fixed_steps()) fixed.emplace_back(method.name);
-  }
-  return fmt::format("{}: {} of the critical step; others: adaptive", fmt::join(fixed, ", "),
-                     default_part_of_critical);
 }
 
 CaseKey scatter_row(const CaseKey& of) {
@@ -318,11 +304,11 @@ std::vector<CaseKey> make_case_keys() {
 
     row("solver.method", "", any_value, "time integration method", as_in_case, AT(solver.method)),
     row("solver.rtol", "", between("from 1e-14 to 0.1", 1e-14, 0.1), "relative tolerance of adaptive methods", as_in_case, AT(solver.rtol)),
-    row("solver.step", "s", positive, "fixed step", default_step(), AT(solver.step)),
+    row("solver.step", "s", positive, "fixed step", names_if([](auto& m) { return m.has_fixed_steps(); }) + fmt::format(": {} of the critical step; others: adaptive", default_part_of_critical), AT(solver.step)),
     row("solver.max_step", "s", positive, "largest step of adaptive methods", "no limit", AT(solver.max_step)),
     with_choices(row("solver.table", "", any_value, "coefficients of a Runge-Kutta method", "the method's first: see `subimpact methods`", AT(solver.table)), table_choices()),
-    row("solver.events", "", any_value, "treatment of an event inside a step", by_method([](const MethodDescriptor& m) { return m.events; }), AT(solver.events)),
-    row("solver.reversals", "", any_value, "treatment of section events (first flow, reversal, closing of a loop) inside a step; on damped beams that may yield always \"step-end\"", by_method([](const MethodDescriptor& m) { return m.reversals; }), AT(solver.reversals)),
+    row("solver.events", "", any_value, "treatment of an event inside a step", names_if([](auto& m) { return m.events == EventHandling::interpolated; }) + ": \"interpolated\"; others: \"located\"", AT(solver.events)),
+    row("solver.reversals", "", any_value, "treatment of section events (first flow, reversal, closing of a loop) inside a step; on damped beams that may yield always \"step-end\"", names_if([](auto& m) { return m.reversals == ReversalHandling::step_end; }) + ": \"step-end\"; others: \"located\"", AT(solver.reversals)),
     row("solver.max_order", "", between("from 1 to 12 (adams) or 5 (bdf)", 1, 12), "highest order of a multistep method", usual_orders(), AT(solver.max_order)),
 
     row("accuracy.event_times", "s", positive, "bound on the error of every event time: `subimpact run` chooses what the case leaves open of mesh, method and tolerance so that the bound holds", "none", AT(accuracy.event_times)),
