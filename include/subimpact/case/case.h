@@ -68,7 +68,7 @@ struct CaseParts {
 struct Case : Options {
   std::string title;
   /// Why theory and contact law are what they are, if they were chosen
-  /// (study/model/scene_choice.h); no key.
+  /// (study/model.h); no key.
   std::string model_choice;
   bool theory_is_chosen = false;  ///< by the program, with the shear that matters; no key
   Scene scene;

@@ -169,7 +169,7 @@ inline constexpr std::optional<double> StrikeFigures::*strike_figures[] = {
 inline constexpr std::optional<double> ZoneFigures::*zone_figures[] = {
     &ZoneFigures::start, &ZoneFigures::end, &ZoneFigures::impulse};
 
-/// What a model leaves out, or a case leaves open (study/model/body_errors.h).
+/// What a model leaves out, or a case leaves open (study/model.h).
 enum class BodyPart {
   shear,              ///< of a beam without it
   shear_coefficient,  ///< of a beam with it

@@ -43,7 +43,7 @@ struct SolverOptions {
 };
 
 struct AccuracyOptions {
-  /// s: bound on the error of every event time, for simulate_within() (see study/within.h);
+  /// s: bound on the error of every event time, for simulate_within() (see study/run_as_asked.h);
   /// simulate() ignores it.
   std::optional<double> event_times;
   /// Bound on the total work of all runs made to meet `event_times`, in evaluations of the

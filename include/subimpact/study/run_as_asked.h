@@ -107,7 +107,7 @@ struct RunRequest : WithinOptions {
   std::optional<ErrorBars> error_bars;
   /// The case, if it is already resolved; used by a run without error bars.
   std::optional<ResolvedRun> resolved;
-  bool body_errors = true;  ///< whether those are estimated (study/model/body_errors.h)
+  bool body_errors = true;  ///< whether those are estimated (study/model.h)
 };
 
 /// The choices that the program makes: those that the case leaves open, if the case has
