@@ -78,7 +78,7 @@ std::string resolved_summary(const LoadedCase& loaded) {
 void bind_cases(py::module_& module) {
   module.def("materials", [] {
     py::list list;
-    for (const Material& m : materials()) {
+    for (const Material& m : materials) {
       list.append(
           py::make_tuple(m.name, m.density, m.youngs_modulus, m.poisson, m.yield_stress, m.source));
     }

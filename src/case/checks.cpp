@@ -218,18 +218,12 @@ void check_section(const Case& input) {
   const bool is_hollow =
       shape == SectionShape::tube || shape == SectionShape::box || shape == SectionShape::i;
   if (is_hollow && !(gap.height > 0.0 && gap.width > 0.0)) {
-    const bool is_i = shape == SectionShape::i, too_high = !(gap.height > 0.0);
-    const double size = too_high ? outer.height : outer.width;
-    const double limit = !is_i      ? 0.5 * std::min(outer.height, outer.width)
-                         : too_high ? 0.5 * size
-                                    : size;
     refuse_section(input,
-                   !is_i      ? "beam.section.wall"
-                   : too_high ? "beam.section.flange"
-                              : "beam.section.web",
-                   fmt::format("leaves no gap in a section of {:g} m; allowed: below {:g} m; "
-                               "reduce it, or use a solid shape",
-                               size, limit));
+                   shape != SectionShape::i ? "beam.section.wall"
+                   : gap.height > 0.0       ? "beam.section.web"
+                                            : "beam.section.flange",
+                   "leaves no gap in the section; allowed: walls and flanges below half of its "
+                   "height and width, a web below its width; reduce it, or use a solid shape");
   }
   if (input.parts.section && shape != SectionShape::rectangle) {
     refuse_section(input, "beam.section.shape",

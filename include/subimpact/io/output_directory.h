@@ -4,8 +4,8 @@
 /// are written into a hidden directory in it. commit() puts them in place together: it replaces
 /// manifest.json, which lists every file with its checksum, in a single rename, and then moves the
 /// files. A process that is killed before the rename leaves the older files, one that is killed
-/// after it the newer ones; readers find each file under one of two names by its checksum
-/// (ListedFiles), and the next writer moves what is left. A lock (flock) keeps other writers out,
+/// after it the newer ones; readers find each file under one of two names by its checksum,
+/// and the next writer moves what is left. A lock (flock) keeps other writers out,
 /// including those on other hosts if the file system supports it.
 
 #include <filesystem>

@@ -165,7 +165,7 @@ std::vector<Choice> table_choices() {
 
 std::vector<Choice> material_choices() {
   std::vector<Choice> choices;
-  for (const Material& material : materials()) choices.push_back({material.name, material.source});
+  for (const Material& material : materials) choices.push_back({material.name, material.source});
   return choices;
 }
 

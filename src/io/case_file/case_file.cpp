@@ -266,8 +266,8 @@ class Reader {
     const auto given = given_.find("beam.material");
     if (given == given_.end()) return;
     const auto* name = std::get_if<std::string>(&given->second.value);
-    const Material* material = name != nullptr ? find_material(*name) : nullptr;
-    if (material == nullptr) return;  // refused below
+    const auto* material = std::ranges::find(materials, name ? *name : "", &Material::name);
+    if (material == std::end(materials)) return;  // refused below
     const bool in_file = given->second.in_file;
     for (const auto& [key, value] : material_values) {
       if (given_.contains(key) && (in_file || !given_.at(key).in_file)) continue;

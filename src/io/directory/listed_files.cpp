@@ -72,13 +72,6 @@ Fingerprint fingerprint_of(std::istream& file) {
   return fingerprint;
 }
 
-std::optional<Fingerprint> fingerprint_of(const fs::path& path) {
-  if (!fs::is_regular_file(fs::symlink_status(path))) return {};
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::system_error(errno, std::generic_category(), path.string());
-  return fingerprint_of(file);
-}
-
 fs::path staging_of(const fs::path& directory, const std::string& commit) {
   return directory / (staging_prefix + commit);
 }

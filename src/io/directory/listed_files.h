@@ -20,9 +20,6 @@ struct Fingerprint {
 
 /// Fingerprint of the whole stream, which is then rewound.
 Fingerprint fingerprint_of(std::istream& file);
-/// Fingerprint of a regular file; nothing if there is no such file (a symbolic link is none).
-/// Throws std::system_error if the file cannot be opened.
-std::optional<Fingerprint> fingerprint_of(const std::filesystem::path& file);
 
 struct Manifest {
   std::string kind;                          ///< "run", "figures", "compare" ...

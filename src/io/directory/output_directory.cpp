@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -204,7 +205,9 @@ void OutputDirectory::write_manifest() {
   for (const std::string& name : files_in(staging_)) {
     const fs::path file = staging_ / name;
     synchronise(file);
-    next.files[name] = fingerprint_of(file).value();
+    std::ifstream content(file, std::ios::binary);
+    if (!content) throw std::system_error(errno, std::generic_category(), file.string());
+    next.files[name] = fingerprint_of(content);
   }
   const fs::path manifest = staging_ / manifest_name;
   write_file(manifest, to_json(next));

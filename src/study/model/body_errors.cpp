@@ -8,7 +8,6 @@
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "study/judgement/totals.h"
-#include "study/model/body_parts.h"
 #include "study/model/body_runs.h"
 #include "study/model/coarse_strike.h"
 #include "subimpact/study/judgement/event_errors.h"

@@ -1,4 +1,4 @@
-#include "study/model/body_parts.h"
+#include "study/model/body_runs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What bounds the force of a contact, and what a case leaves open of the bodies in contact.
 
 #include "elastic_case.h"
-#include "study/model/body_parts.h"
+#include "study/model/body_runs.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/model.h"
 #include "testing.h"

@@ -22,7 +22,7 @@
 #include "case/meshes.h"
 #include "io/records/run_record.h"
 #include "study/method_choice.h"
-#include "study/model/body_parts.h"
+#include "study/model/body_runs.h"
 #include "study/model/coarse_strike.h"
 #include "study/parallel.h"
 #include "subimpact/io/case_file.h"
