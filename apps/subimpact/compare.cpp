@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "commands.h"
+#include "io/directory/listed_files.h"
 #include "subimpact/report/text.h"
 #include "subimpact/study/studies.h"
 
@@ -81,7 +82,10 @@ int run_comparison(CompareOptions& options) {
   print("{}; all on {}\n\n{}", heading(loaded.value), comparison.reference.result.used.mesh,
         comparison_table(comparison));
   if (directory) {
-    const auto write = [&](const auto& place) { write_comparison(place, comparison); };
+    const auto write = [&](const auto& place) {
+      write_file(place / "comparison.csv", comparison_csv(comparison));
+      write_file(place / "matches.csv", matches_csv(comparison));
+    };
     if (!write_after_printing(*directory, write)) return failed;
     print("\ncomparison.csv and matches.csv in {}\n", options.directory);
   }

@@ -1,9 +1,8 @@
 #pragma once
 
 /// Results and studies as text for people, in microseconds, millimetres and newtons, and as CSV and
-/// JSON files. Functions that write files throw OutputError.
+/// JSON files.
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,7 +11,6 @@
 #include "subimpact/case/case.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/io/output_directory.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/studies.h"
 
@@ -92,8 +90,7 @@ std::string method_listing();
 /// A duration in the unit that suits its size: "12.3 us", "8 ms", "3.4 s".
 std::string duration_text(double seconds);
 
-/// Writes comparison.csv (one row per method) and matches.csv (one row per method and sub-impact).
-void write_comparison(const std::filesystem::path& directory, const Comparison& comparison);
+/// comparison.csv, one row per method, and matches.csv, one row per method and sub-impact.
 std::string comparison_csv(const Comparison& comparison);
 std::string matches_csv(const Comparison& comparison);
 

@@ -4,7 +4,6 @@
 
 #include "case/counted.h"
 #include "case/keys/case_choices.h"
-#include "io/directory/listed_files.h"
 #include "numerics/units.h"
 #include "report/study_columns.h"
 #include "report/text/uncertain.h"
@@ -175,11 +174,6 @@ std::string matches_csv(const Comparison& comparison) {
   add("peak_force", "_N", &SubImpact::peak_force, false);
   add("impulse", "_Ns", &SubImpact::impulse, false);
   return csv_text(columns, matches);
-}
-
-void write_comparison(const std::filesystem::path& directory, const Comparison& comparison) {
-  write_file(directory / "comparison.csv", comparison_csv(comparison));
-  write_file(directory / "matches.csv", matches_csv(comparison));
 }
 
 std::string model_table(const std::vector<ModelRun>& runs) {
