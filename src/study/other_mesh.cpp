@@ -58,10 +58,7 @@ std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
   refined_run.description = fmt::format("{} {}", count, refinement->parts);
   const bool fixed = descriptor_of(input.solver.method).has_fixed_steps();
   if (fixed && input.solver.step) {
-    other.solver.step.reset();
-    const ResolvedSettings used = resolve(other).settings();
-    const double largest = default_part_of_critical * used.critical_step;
-    other.solver.step = std::min(*input.solver.step, largest);
+    other.solver.step = std::min(*input.solver.step, largest_stable_step(other));
     if (*other.solver.step < *input.solver.step) {
       refined_run.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
     }
