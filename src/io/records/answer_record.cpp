@@ -2,28 +2,21 @@
 
 namespace subimpact {
 
-// Enumerators in their order, and their names.
-template <class Enum>
-static std::vector<Named<Enum>> in_order(std::initializer_list<const char*> names) {
-  std::vector<Named<Enum>> all;
-  for (const char* name : names) all.push_back({static_cast<Enum>(all.size()), name, ""});
-  return all;
+// The name of an enumerator, of names in their order.
+static std::string_view nth(std::initializer_list<const char*> names, auto value) {
+  return names.begin()[static_cast<std::size_t>(value)];
 }
 
 // clang-format off
-static std::span<const Named<AnswerKey>> names_of(AnswerKey) {
-  static const auto names = in_order<AnswerKey>(
-      {"sub_impacts", "joined", "largest_force", "first_parting", "contact_end", "rests_since", "striker_velocity",
-       "restitution", "impulse", "zones", "indentation", "dent", "contact_pressure", "permanent_set", "yield_share",
-       "supports", "energy"});
-  return names;
+static std::string_view to_string(AnswerKey value) {
+  return nth({"sub_impacts", "joined", "largest_force", "first_parting", "contact_end", "rests_since", "striker_velocity",
+              "restitution", "impulse", "zones", "indentation", "dent", "contact_pressure", "permanent_set", "yield_share",
+              "supports", "energy"}, value);
 }
-static std::span<const Named<WhyNot>> names_of(WhyNot) {
-  static const auto names = in_order<WhyNot>(
-      {"no_contact", "in_contact", "approaching", "met_at_rest", "none_uncertain", "does_not_rest", "fixed",
-       "stays_elastic", "yields", "no_yield_stress", "no_moduli", "not_computed", "no_supports",
-       "turns_too_far"});
-  return names;
+static std::string_view to_string(WhyNot value) {
+  return nth({"no_contact", "in_contact", "approaching", "met_at_rest", "none_uncertain", "does_not_rest", "fixed",
+              "stays_elastic", "yields", "no_yield_stress", "no_moduli", "not_computed", "no_supports",
+              "turns_too_far"}, value);
 }
 constexpr BodyPartWords body_parts[] = {
     {BodyPart::shear, "shear", "shear", "beam.theory = \"timoshenko\" models it"},
@@ -41,18 +34,14 @@ constexpr BodyPartWords body_parts[] = {
     {BodyPart::thin_openings, "thin_openings", "thin openings", "count gaps so thin as closed: --opening 10um"}};
 std::span<const BodyPartWords> names_of(BodyPart) { return body_parts; }
 
-static std::span<const Named<StrikeVerdict::Certainty>> names_of(StrikeVerdict::Certainty) {
-  static const auto names = in_order<StrikeVerdict::Certainty>({"not_known", "none", "some", "all"});
-  return names;
+static std::string_view to_string(StrikeVerdict::Certainty value) {
+  return nth({"not_known", "none", "some", "all"}, value);
 }
-static std::span<const Named<StrikeVerdict::Contact>> names_of(StrikeVerdict::Contact) {
-  static const auto names =
-      in_order<StrikeVerdict::Contact>({"none", "over", "may_not_be_over", "not_over", "rests"});
-  return names;
+static std::string_view to_string(StrikeVerdict::Contact value) {
+  return nth({"none", "over", "may_not_be_over", "not_over", "rests"}, value);
 }
-static std::span<const Named<StrikeVerdict::Beam>> names_of(StrikeVerdict::Beam) {
-  static const auto names = in_order<StrikeVerdict::Beam>({"rigid", "elastic", "bent", "not_computed", "turned_too_far"});
-  return names;
+static std::string_view to_string(StrikeVerdict::Beam value) {
+  return nth({"rigid", "elastic", "bent", "not_computed", "turned_too_far"}, value);
 }
 
 const Record<StrikeVerdict>& verdict_record() {
