@@ -7,7 +7,6 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement/judgement.h"
 #include "subimpact/study/run_as_asked.h"
-#include "yielding_limit.h"
 
 namespace subimpact {
 namespace {
