@@ -204,7 +204,7 @@ def test_the_table_of_sub_impacts_has_doubts_and_a_row_each(copy):
 
 def test_what_is_certain_and_what_is_not_comes_first(kept, copy):
     before = page_of(kept / "elastic").partition('class="tiles')[0]
-    assert "Not certain:</b> event times, count and order" in before and "certainty not known" in before
+    assert "Not certain:</b> errors are not known" in before and "certainty not known" in before
     directory = copy("yielding")
 
     def fail(summary):
