@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import csv
 import os
+from collections.abc import Mapping
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from . import _core
 from ._errors import OutputError, ResultsError
 from ._files import Files
+from ._text import path_text
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -40,8 +43,6 @@ class Stored:
         """A structured array, read-only. Empty cells: NaN, -1, ""."""
         file = f"{'events' if name == 'sub_impacts' else name}.csv"
         if file not in self.files:
-            from . import _core
-
             return _core.no_rows(name)
         heading, _, body = self.files[file].partition(b"\n")
         names = heading.decode().split(",")
@@ -64,15 +65,7 @@ class Stored:
 
     def write(self, directory: str) -> None:
         """Raises OutputError."""
-        from . import _core
-
-        with closing(_core.OutputDirectory(directory, "run", 0.0, "")) as output:
-            try:
-                for name, content in self.files.items():
-                    Path(output.staging, name).write_bytes(content)
-            except OSError as error:
-                raise OutputError(f"{directory}: cannot be written ({error.strerror})") from None
-            output.commit()
+        write_files(directory, "run", self.files)
 
     def summary(self) -> str:
         return self.files["summary.json"].decode(errors="replace")
@@ -82,6 +75,17 @@ class Stored:
             raise ResultsError("the results have no report.json: a program that uses the library wrote them; run the case with "
                                "`subimpact run` or `subimpact.run`")
         return self.files["report.json"].decode(errors="replace")
+
+
+def write_files(directory: str | os.PathLike[str], kind: str, files: Mapping[str, bytes]) -> None:
+    """Writes files into a directory of results of this kind, all as one. Raises OutputError."""
+    with closing(_core.OutputDirectory(path_text(directory, OutputError), kind)) as output:
+        try:
+            for name, content in files.items():
+                Path(output.staging, name).write_bytes(content)
+        except OSError as error:
+            raise OutputError(f"{os.fsdecode(directory)}: cannot be written ({error.strerror})") from None
+        output.commit()
 
 
 def _numbers(body: bytes, n_columns: int, file: str) -> npt.NDArray[np.float64]:

@@ -6,9 +6,7 @@ import math
 import os
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import closing
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -16,9 +14,9 @@ import numpy as np
 from . import _core
 from ._checks import check_jobs, check_progress
 from ._command import Command, text_of_table
-from ._errors import CaseError, OutputError
+from ._errors import CaseError
 from ._runs import Runs
-from ._text import path_text
+from ._stored import write_files
 from .case import Case, as_case
 from .result import Result
 
@@ -122,14 +120,8 @@ def write_table(directory: str | os.PathLike[str], name: str, table: Table, **ot
 
     lines = [",".join(table.dtype.names or ()), *(",".join("" if value != value else cell(value) for value in row)
                                                   for row in table.tolist())]
-    with closing(_core.OutputDirectory(path_text(directory, OutputError), name)) as output:
-        try:
-            Path(output.staging, f"{name}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
-            for other, text in others.items():
-                Path(output.staging, f"{other}.json").write_text(text, encoding="utf-8")
-        except OSError as error:
-            raise OutputError(f"{os.fsdecode(directory)}: cannot be written ({error.strerror})") from None
-        output.commit()
+    files = {f"{name}.csv": "\n".join([*lines, ""]), **{f"{other}.json": text for other, text in others.items()}}
+    write_files(directory, name, {file: text.encode() for file, text in files.items()})
 
 
 def _per_percent(derivative: float, error: float) -> str:

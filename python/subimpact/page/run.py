@@ -55,7 +55,7 @@ def drawn_figures(directory: Path, identity: str) -> Figures:
     return found
 
 
-def _counted(n: int, noun: str) -> str:
+def counted(n: int, noun: str) -> str:
     return f"{n} {noun}" + ("" if n == 1 else "s")
 
 
@@ -99,7 +99,7 @@ def _data(files: Files, summary: Mapping[str, Any], report: Mapping[str, Any], h
         "end": end, **scene, "yields": bool(zones), "max_force": summary["maxima"]["force_N"],
         "max_indentation": summary["maxima"]["indentation_m"], "sub_impacts": _sub_impacts(hits, end),
         "events": events,
-        "plastic_zones": [{"from": zone["from_m"], "to": zone["to_m"], "rotation": zone["rotation_rad"]} for zone in zones],
+        "plastic_zones": [{"from": zone["from_m"], "to": zone["to_m"]} for zone in zones],
         "overlay": overlay, "history": history, "meanings": meanings, "shapes": None, "envelope": None}
     n_points = summary["used"]["n_shape_points"]
     if counts["shape_rows"] and n_points > 1:
@@ -151,7 +151,7 @@ def _certainty(summary: Mapping[str, Any], report: Mapping[str, Any]) -> dict[st
     """The verdict and what opens below it."""
     lines = [(line["certain"], "Certain:" if line["certain"] else "Not certain:", line["text"]) for line in report["headlines"]]
     n_doubts, n_warnings = sum(not certain for certain, *_ in lines), len(summary["warnings"])
-    opens = ", ".join(_counted(n, noun) for n, noun in ((n_doubts, "doubt"), (n_warnings, "warning")) if n)
+    opens = ", ".join(counted(n, noun) for n, noun in ((n_doubts, "doubt"), (n_warnings, "warning")) if n)
     return {"verdict": in_print(summary["verdict"]["text"]), "verdict_class": "not" if opens else "certain",
             "verdict_opens": opens or "Why", "headlines": headlines(lines),
             "tolerance": paragraphs([report["tolerance"]], "met" if summary["wish_met"] else "warning", "Tolerance: "),
@@ -246,7 +246,7 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
         "sub_impacts": "".join(_rows(report, hits)),
         "flights": "".join(f"<p>After sub-impact {each['after_index']} there may be another one: {in_print(each['reason'])}.</p>\n"
                            for each in flights[:_MOST_FLIGHTS])
-        + paragraphs([f"So it is after {_counted(len(flights) - _MOST_FLIGHTS, 'more sub-impact')}"] if len(flights) > _MOST_FLIGHTS else []),
+        + paragraphs([f"So it is after {counted(len(flights) - _MOST_FLIGHTS, 'more sub-impact')}"] if len(flights) > _MOST_FLIGHTS else []),
         "strikes": strikes,
         "next": _section("What next", f'<dl class="steps">\n{steps}</dl>\n' if steps else ""),
         "measured": section,

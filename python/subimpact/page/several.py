@@ -6,7 +6,7 @@ import math
 import os
 import shlex
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Optional
 
 import matplotlib
@@ -20,11 +20,11 @@ from ..case import Case, keys
 from ..plot import Absent, comparison, histograms, sweep_map
 from ..plot.sweeps import CHIEF, error_column
 from .._tables import arrays_of
-from ..plot.directory import caption_of, letters, svg_of
+from ..plot.directory import Figure, figure_of, letters, svg_of
 from ..result import Result, read_results
 from ..running import run
 from .markup import escaped, figures, headlines, in_print, paragraphs, table, tiles, whole
-from .run import body_of, errors_of
+from .run import body_of, counted, errors_of
 
 _MAPPED = ("n_sub_impacts", "max_force_N", "restitution", "permanent_set_m")
 _SHOWN = ("outcome", "n_sub_impacts", "n_certain", "max_force_N", "impulse_Ns", "restitution", "permanent_set_m", "warnings", "message")
@@ -34,20 +34,16 @@ _MOST_SECONDS = 60.0  # of the run of the base case
 Pair = tuple[Optional[int], Optional[int]]  # of sub-impacts of two runs that correspond
 
 
-def _figures(drawings: Mapping[str, Callable[[], Any]], captions: Mapping[str, str]) -> str:
+def _figures(drawings: Mapping[str, Figure]) -> str:
     """The figures that can be drawn, and why others cannot."""
     matplotlib.use("Agg")
     drawn, left_out = [], []
-    for name, draw in drawings.items():
+    for name, figure in drawings.items():
         try:
-            drawn.append((name, captions[name], svg_of(draw())))
+            drawn.append((name, figure.caption, svg_of(figure.draw())))
         except Absent as reason:
             left_out.append(f"{name}: {reason}")
     return f'<div class="stills open" id="stills">\n{figures(drawn)}</div>\n' + paragraphs(left_out, before="Not drawn: ")
-
-
-def _counted(n: int, noun: str) -> str:
-    return f"{n} {noun}" + ("" if n == 1 else "s")
 
 
 def _certainty(columns: Mapping[str, Any], outcomes: Counter[str], n: int) -> str:
@@ -56,17 +52,17 @@ def _certainty(columns: Mapping[str, Any], outcomes: Counter[str], n: int) -> st
     if "all_certain" in columns:
         certain = columns["all_certain"]
         n_certain, n_doubtful = int((certain == 1).sum()), int((certain == 0).sum())
-        lines = [(True, "Certain:", f"count and order of the sub-impacts in {n_certain} of {_counted(n, 'run')}.")] if n_certain else []
+        lines = [(True, "Certain:", f"count and order of the sub-impacts in {n_certain} of {counted(n, 'run')}.")] if n_certain else []
         if n_doubtful:
-            lines.append((False, "Not certain:", f"the counts of {_counted(n_doubtful, 'run')}, which the map hatches; a pattern among "
+            lines.append((False, "Not certain:", f"the counts of {counted(n_doubtful, 'run')}, which the map hatches; a pattern among "
                           "them may be that of their errors."))
-    return headlines([*lines, *((False, "Not certain:", f'{_counted(k, "run")} with the outcome "{kind}".')
+    return headlines([*lines, *((False, "Not certain:", f'{counted(k, "run")} with the outcome "{kind}".')
                                 for kind, k in sorted(outcomes.items()) if kind != "completed"), *_warnings(columns, n)])
 
 
 def _warnings(columns: Mapping[str, Any], n: int) -> list[tuple[bool, str, str]]:
     kinds = Counter(kind for cell in columns.get("warnings", ()) if isinstance(cell, str) and cell for kind in cell.split(";"))
-    return [(False, "Not certain:", f"{', '.join(f'{kind} in {k}' for kind, k in kinds.most_common())} of {_counted(n, 'run')}: warnings, "
+    return [(False, "Not certain:", f"{', '.join(f'{kind} in {k}' for kind, k in kinds.most_common())} of {counted(n, 'run')}: warnings, "
              "whose sentences a run of its own has (the command below); the maps hatch them.")] if kinds else []
 
 
@@ -124,10 +120,8 @@ def sweep_page(files: Files) -> str:
     if counts.dtype.kind == "f" and np.isfinite(counts).any():
         shown.append(("sub-impacts per run", f"{np.nanmin(counts):.0f} to {np.nanmax(counts):.0f}", ""))
     mapped = [name for name in _MAPPED if name in columns and columns[name].dtype.kind == "f" and np.isfinite(columns[name]).any()]
-    drawings: dict[str, Callable[[], Any]] = {f"map-{name}": lambda name=name: sweep_map(columns, column=name)  # type: ignore[misc]
-                                              for name in mapped}
-    drawings["histograms"] = lambda: histograms(columns)
-    captions = dict.fromkeys(drawings, caption_of(sweep_map)) | {"histograms": caption_of(histograms)}
+    drawings = {f"map-{name}": figure_of(sweep_map, columns, column=name) for name in mapped}
+    drawings["histograms"] = figure_of(histograms, columns)
     units = {key: known[key].unit if key in known else "" for key in all_keys}
     base = files.directory / "base.toml"
     command = " ".join(["subimpact run", shlex.quote(str(base) if base.exists() else "CASE.toml"), f"--out run-{rows[0]['run']}",
@@ -137,7 +131,7 @@ def sweep_page(files: Files) -> str:
             "<h2>Keys that differ</h2>\n"
             + table(["key", "meaning", "values"], [(key, known[key].meaning if key in known else "", _values(columns[key], units[key]))
                                                    for key in all_keys])
-            + _statistics(columns) + _base_case(files) + "<h2>Figures</h2>\n" + _figures(drawings, captions)
+            + _statistics(columns) + _base_case(files) + "<h2>Figures</h2>\n" + _figures(drawings)
             + "<h2>Runs</h2>\n" + table(listed, [[row[name] for name in listed] for row in rows[:_MOST_ROWS]], "runs")
             + paragraphs([f"The first {_MOST_ROWS} of {len(rows)} runs are shown; runs.csv has all"] if len(rows) > _MOST_ROWS else [])
             + f"<p>To make one of them alone, with the errors of its mesh too; the first, for example:</p>\n<pre>{escaped(command)}</pre>\n")
@@ -176,7 +170,7 @@ def _pair_row(pair: Pair, first: Any, second: Any) -> list[str]:
 def _pair_words(pairs: Sequence[Pair], first: Sequence[tuple[float, float]], second: Sequence[tuple[float, float]], letter: str) -> str:
     n = n_leading(pairs)
     largest = max((abs(first[k][0] - second[k][0]) for k in range(n)), default=0.0)
-    words = "The first sub-impacts correspond" if n == 1 else f"The first {_counted(n, 'sub-impact')} correspond one to one"
+    words = "The first sub-impacts correspond" if n == 1 else f"The first {counted(n, 'sub-impact')} correspond one to one"
     if n:
         words += f"; their starts differ by {1e6 * largest:.2g} us at most"
     if n < len(pairs):
@@ -226,6 +220,6 @@ def comparison_page(directories: Sequence[str]) -> str:
     runs = table(["", *(f"{letter}: {os.fspath(directory)}" for letter, directory in zip(names, directories))], _answers(reports, summaries))
     body = (f'<ul class="headline">\n{headlines(lines)}</ul>\n<h2>Runs</h2>\n{runs}<h3>Keys of the cases that differ</h3>\n'
             + (table(["key", *names], different) if different else "<p>None: the cases are the same.</p>\n") + "<h2>Curves</h2>\n"
-            + _figures({"comparison": lambda: comparison(dict(zip(names, results)))}, {"comparison": caption_of(comparison)})
+            + _figures({"comparison": figure_of(comparison, dict(zip(names, results)))})
             + "".join(pairs_of) + f'<p class="sub">subimpact {escaped(summaries[0]["program"]["version"])}</p>\n')
     return whole(f"Comparison: {summaries[0]['case']['title'] or 'a strike'}", body)

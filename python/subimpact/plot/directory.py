@@ -61,7 +61,7 @@ def caption_of(draw: Callable[..., Any]) -> str:
     return " ".join((draw.__doc__ or "").split())
 
 
-def _figure(draw: Callable[..., Any], *sources: Any, **named: Any) -> Figure:
+def figure_of(draw: Callable[..., Any], *sources: Any, **named: Any) -> Figure:
     return Figure(functools.partial(draw, *sources, **named), caption_of(draw))
 
 
@@ -74,7 +74,7 @@ def figures_of(directory: Path, *others: Path) -> dict[str, Figure]:
     """The figures of a run, a sweep or a study, or of several runs, by their names. Raises ResultsError."""
     if others:
         runs = dict(zip(letters(1 + len(others)), (directory, *others)))
-        drawn = _figure(comparison, {letter: read_results(run) for letter, run in runs.items()})
+        drawn = figure_of(comparison, {letter: read_results(run) for letter, run in runs.items()})
         named = "; ".join(f"{letter}: {one_line(str(run))}" for letter, run in runs.items())
         return {"comparison": Figure(drawn.draw, f"{drawn.caption} {named}.")}
 
@@ -86,24 +86,24 @@ def figures_of(directory: Path, *others: Path) -> dict[str, Figure]:
 
     if has("runs.csv") and not has("summary.json"):
         runs = table("runs")
-        return {name: _figure(getattr(sweeps, name), runs) for name in ("sweep_map", "histograms")}
+        return {name: figure_of(getattr(sweeps, name), runs) for name in ("sweep_map", "histograms")}
     if has("work_precision.csv"):
         points = table("work_precision")
-        return {"work_precision": _figure(studies.work_precision, points),
-                "work_precision_evaluations": _figure(studies.work_precision, points, cost="right_hand_sides")}
+        return {"work_precision": figure_of(studies.work_precision, points),
+                "work_precision_evaluations": figure_of(studies.work_precision, points, cost="right_hand_sides")}
     if has("outcomes.csv"):
-        return {"outcomes": _figure(studies.outcomes, table("outcomes"))}
+        return {"outcomes": figure_of(studies.outcomes, table("outcomes"))}
     if has("matches.csv"):
         floor = table("comparison")["reference_error_s"][0]
-        return {"differences": _figure(studies.differences, table("matches"), reference_error=floor)}
+        return {"differences": figure_of(studies.differences, table("matches"), reference_error=floor)}
     if has("sensitivity.csv"):
-        return {"sensitivity": _figure(studies.sensitivity, table("sensitivity"))}
+        return {"sensitivity": figure_of(studies.sensitivity, table("sensitivity"))}
     result = read_results(directory)
-    figures = {name: _figure(draw, result) for name, draw in _OF_RUN.items()}
+    figures = {name: figure_of(draw, result) for name, draw in _OF_RUN.items()}
     if result["output.gauges"]:
-        figures["gauges"] = _figure(run.gauges, result)
+        figures["gauges"] = figure_of(run.gauges, result)
     if len(result.strikes):
-        figures["strikes"] = _figure(beam.strikes, result)
+        figures["strikes"] = figure_of(beam.strikes, result)
     return figures
 
 

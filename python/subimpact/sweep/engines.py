@@ -72,25 +72,24 @@ class Processes:
     def __init__(self, n: int, memory: float | None) -> None:
         self.n_workers = n
         self._memory = memory
-        self._pool = self._made()
+        self._start()
 
-    def _made(self) -> ProcessPoolExecutor:
-        pool: Any = ProcessPoolExecutor(
+    def _start(self) -> None:
+        self._pool: Any = ProcessPoolExecutor(
             self.n_workers,
             multiprocessing.get_context("fork"),
             _prepare_worker,
             (os.getpid(), self._memory),
         )
-        self._tasks = os.dup(pool._call_queue._reader.fileno())  # the pool closes its own when it likes
-        made: ProcessPoolExecutor = pool
-        return made
+        self._tasks = os.dup(self._pool._call_queue._reader.fileno())  # the pool closes its own when it likes
 
     def submit(self, plan: Plan, numbers: list[int]) -> Future[Any]:
-        return self._pool.submit(run_chunk, plan, numbers)
+        future: Future[Any] = self._pool.submit(run_chunk, plan, numbers)
+        return future
 
     def restart(self) -> None:
         self.stop()
-        self._pool = self._made()
+        self._start()
 
     def stop(self) -> None:
         """Ends the workers, whatever they do. The pool's thread then waits for ever where a killed
@@ -175,10 +174,8 @@ class Coordinator:
                 self._hand_out()
                 done, _ = wait(self._futures, timeout=1.0, return_when=FIRST_COMPLETED)
                 self._take(done)
-        except BaseException:
+        finally:
             self._engine.stop()
-            raise
-        self._engine.stop()
 
     def _chunk_size(self) -> int:
         if self._n_timed == 0:

@@ -53,8 +53,7 @@ function logRange(values) {
 }
 
 class Axes {
-  // options: x and y: {range, label, log, ticks}; a range may descend; ticks: those to show, if not
-  // round ones. left, top: margins in pixels.
+  // options: x and y: {range, label, log}; a range may descend. top: the margin in pixels.
   constructor(canvas, options) {
     this.canvas = canvas;
     const ratio = window.devicePixelRatio || 1;
@@ -67,7 +66,7 @@ class Axes {
     this.draw.clearRect(0, 0, this.width, this.height);
     this.x = options.x;
     this.y = options.y;
-    this.left = options.left ?? 66;
+    this.left = 66;
     this.right = this.width - 14;
     this.top = options.top ?? 14;
     this.bottom = this.height - (options.x.label ? 44 : 12);
@@ -81,16 +80,8 @@ class Axes {
   toY(value) { return this.bottom - Axes.share(this.y, value) * (this.bottom - this.top); }
 
   ticks(axis, pixels, perTick) {
-    if (axis.ticks) return axis.ticks;
     const [from, to] = [Math.min(...axis.range), Math.max(...axis.range)];
     return axis.log ? logTicks(from, to) : linearTicks(from, to, Math.max(2, Math.floor(pixels / perTick)));
-  }
-
-  // Pixels that the vertical axis needs for its labels, a third of the width at most.
-  roomForLabels() {
-    this.draw.font = '12px system-ui, sans-serif';
-    const widths = this.ticks(this.y, this.bottom - this.top, 36).map(({label}) => this.draw.measureText(label).width);
-    return Math.min(Math.max(66, ...widths.map((width) => width + 34)), this.width / 3);
   }
 
   // Grid, ticks and labels; what is drawn afterwards lies above the grid.

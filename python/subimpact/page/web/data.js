@@ -3,19 +3,6 @@
 
 const byId = (id) => document.getElementById(id);
 
-function actOn(event, actions) {
-  const action = actions[event.key];
-  if (event.ctrlKey || event.altKey || event.metaKey || !action) return;
-  event.preventDefault();
-  action();
-}
-
-// Makes window.page of the data of this page, before the page has loaded: who photographs it then sees it drawn.
-function startPage(make) {
-  document.documentElement.classList.add('live');
-  window.page = make(JSON.parse(byId('data').textContent));
-}
-
 // An array of numbers: 64-bit or 32-bit floating point, or signed 24-bit multiples of a step.
 function unpacked(column) {
   const text = atob(column.f64 ?? column.f32 ?? column.i24);

@@ -219,15 +219,12 @@ class Timeline {
       this.marks.push({kind: 'separation', index: i, time: s.end, value: after.start - s.end,
                        error: s.end_error, certain: after.certain});
     });
-    this.bars = Timeline.barStyles.filter(({name}) => this.marks.some((mark) => mark[name] > 0));
+    this.hasErrors = this.marks.some(({error}) => error > 0);
     canvas.addEventListener('click', (event) => {
       const nearest = this.nearest(event.offsetX, event.offsetY);
       if (nearest) choose(nearest.index);
     });
   }
-
-  static barStyles = [
-    {name: 'error', words: 'numerical error', colour: 'text', width: 3}];
 
   nearest(x, y) {
     const {axes, strike} = this;
@@ -243,14 +240,14 @@ class Timeline {
     const range = [(view.from - margin) * unit.per_second, (view.to + margin) * unit.per_second];
     const axes = new Axes(canvas, {
       x: {range, label: `start, ${unit.name}`},
-      y: {range: logRange(this.shownValues()), label: this.bars.length > 0 ? 'duration; uncertainty, µs' : 'duration, µs', log: true},
-      top: this.bars.length > 0 ? 40 : 22});
+      y: {range: logRange(this.shownValues()), label: this.hasErrors ? 'duration; uncertainty, µs' : 'duration, µs', log: true},
+      top: this.hasErrors ? 40 : 22});
     this.axes = axes;
     Object.assign(this.cursor.style, {left: `${canvas.offsetLeft}px`, top: `${canvas.offsetTop + axes.top}px`,
                                       height: `${axes.bottom - axes.top}px`});
     axes.frame();
     axes.inside(() => {
-      for (const bar of this.bars) this.marks.forEach((mark) => this.drawBar(axes, bar, mark));
+      for (const {time, error} of this.marks) this.drawError(axes, axes.toX(time * unit.per_second), 1e6 * error);
       for (const {kind, time, value, certain} of this.marks) {
         this.drawMark(axes, kind, axes.toX(time * unit.per_second), axes.toY(1e6 * value), certain);
       }
@@ -263,15 +260,11 @@ class Timeline {
   shownValues() {
     const values = this.marks.map(({value}) => 1e6 * value).filter((value) => value > 0);
     const least = values.reduce((low, value) => Math.min(low, value), Infinity) / 1e3;
-    const bars = this.bars.flatMap(({name}) => this.marks.map((mark) => 1e6 * mark[name]));
-    return [...values, ...bars.filter((value) => value > least)];
+    return [...values, ...this.marks.map(({error}) => 1e6 * error).filter((error) => error > least)];
   }
 
-  drawBar(axes, {name, colour: tone, width}, mark) {
-    const value = 1e6 * mark[name];
-    if (!(value > axes.y.range[0])) return;
-    const x = axes.toX(mark.time * this.strike.time_unit.per_second);
-    axes.line([[x, axes.bottom], [x, axes.toY(value)]], {colour: colour(tone), width});
+  drawError(axes, x, error) {
+    if (error > axes.y.range[0]) axes.line([[x, axes.bottom], [x, axes.toY(error)]], {colour: colour('text'), width: 3});
   }
 
   drawMark(axes, kind, x, y, isFilled) {
@@ -289,8 +282,8 @@ class Timeline {
     const kinds = [['contacts', 'contact'], ['separations', 'separation'], ['open: not certain', 'open']];
     axes.key(kinds.map(([words, kind]) =>
       [words, 4, (x, y) => this.drawMark(axes, kind, x, y, kind !== 'open')]), 8);
-    axes.key([...this.bars].reverse().map(({words, colour: tone, width}) =>
-      [words, 3, (x, y) => axes.line([[x, y - 7], [x, y + 7]], {colour: colour(tone), width})]), 26);
+    if (!this.hasErrors) return;
+    axes.key([['numerical error', 3, (x, y) => axes.line([[x, y - 7], [x, y + 7]], {colour: colour('text'), width: 3})]], 26);
   }
   drawTime() {
     const {axes, view, strike, cursor} = this;

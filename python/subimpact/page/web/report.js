@@ -3,7 +3,6 @@
 
 function addCopyButton() {
   const button = byId('copy');
-  if (!button) return;
   button.addEventListener('click', async () => {
     getSelection().selectAllChildren(byId('toml'));
     let copied = false;
@@ -36,7 +35,7 @@ function addStrikes(strikes) {
   choose(rows.length - 1);
   if (typeof Dygraph === 'undefined') return;
   const labels = ['strike', 'peak force, N', 'permanent set, mm'];
-  return new Dygraph(byId('strikes-chart'), strikes, {
+  new Dygraph(byId('strikes-chart'), strikes, {
     labels, xlabel: labels[0], ylabel: labels[1], y2label: labels[2], series: {[labels[2]]: {axis: 'y2', strokePattern: [7, 3]}},
     colors: [colour('line1'), colour('line2')], drawPoints: true, pointSize: 3, axes: {y2: {drawAxis: true}, y: {axisLabelWidth: 56}},
     clickCallback: (event, x) => choose(Math.min(Math.max(Math.round(x), 1), rows.length) - 1)});
@@ -358,7 +357,7 @@ class Page {
     if (['BUTTON', 'SUMMARY'].includes(tag) && (event.key === ' ' || event.key === 'Enter')) return;
     const {view, player} = this;
     const small = (view.to - view.from) / 200;
-    actOn(event, {
+    const action = {
       ' ': () => player.toggle(),
       ArrowRight: () => (event.shiftKey ? view.setTime(view.time + small) : this.step(1)),
       ArrowLeft: () => (event.shiftKey ? view.setTime(view.time - small) : this.step(-1)),
@@ -372,7 +371,10 @@ class Page {
       Escape: () => this.showAll(),
       '[': () => this.changeSpeed(-1),
       ']': () => this.changeSpeed(1),
-    });
+    }[event.key];
+    if (event.ctrlKey || event.altKey || event.metaKey || !action) return;
+    event.preventDefault();
+    action();
   }
 }
 
@@ -392,4 +394,6 @@ addEventListener('afterprint', () => {
   for (const plot of document.querySelectorAll('#pulse .plot')) Object.assign(plot.style, {height: '', zoom: ''});
 });
 addCopyButton();
-startPage((data) => new Page(data));
+// Before the page has loaded: who photographs it then sees it drawn.
+document.documentElement.classList.add('live');
+window.page = new Page(JSON.parse(byId('data').textContent));
