@@ -93,15 +93,24 @@ TEST(Gauges, AgreeWithTheClosedFormOfABeamUnderAForce) {
   input.output.interval = 1e-5;
   const std::vector<double> places = {0.0, 0.1, 0.25, 0.3333, 0.45, 0.6, 0.9};
   for (const double x : places) input.output.gauges.push_back({x});
+  input.output.points = places;
   const Beam& beam = input.scene.beam;
   const double per_moment = 0.5 * beam.thickness / beam.bending_stiffness();
   const double largest = per_moment * 0.25 * force * beam.length;
-  for (const HistoryRow& row : completed(input).history) {
+  const Result result = completed(input);
+  for (const HistoryRow& row : result.history) {
     for (std::size_t i = 0; i < places.size(); ++i) {
       // The back is in tension where the force presses the beam down between its supports.
       const double moment = 0.5 * force * beam.length * std::min(places[i], 1.0 - places[i]);
       EXPECT_NEAR(row.gauge_strains[i], per_moment * moment, 1e-9 * largest) << places[i];
     }
+  }
+  ASSERT_EQ(result.point_history.size(), result.history.size() * places.size());
+  const double sag = force * std::pow(beam.length, 3) / (48.0 * beam.bending_stiffness());
+  for (const PointRow& row : result.point_history) {
+    const double x = std::min(row.position / beam.length, 1.0 - row.position / beam.length);
+    EXPECT_NEAR(row.displacement, sag * x * (3.0 - 4.0 * x * x), 1e-4 * sag) << x;
+    EXPECT_NEAR(row.velocity, 0.0, 1e-9);
   }
 }
 

@@ -6,23 +6,6 @@
 namespace subimpact {
 namespace {
 
-TEST(AnEvenNumberOfSegments, IsRefusedForTheHalfModelAndTakenForTheWhole) {
-  Case input = paper_case(SectionKind::elastic, 1e-5, 100);
-  expect_refused(input, "model.segments", "101");
-  input.model.symmetry = SymmetryUse::off;
-  EXPECT_TRUE(simulate(input).outcome.completed());
-}
-
-TEST(AnIndentationAsDeepAsTheBeam, EndsTheRunWithWhatWasComputed) {
-  Case input = paper_case(SectionKind::elastic, 1e-3);
-  input.scene.striker.velocity = 4000.0;
-  const Result result = simulate(input);
-  EXPECT_EQ(result.outcome.kind, OutcomeKind::left_validity);
-  EXPECT_GT(result.outcome.time, 0.0);
-  EXPECT_EQ(result.sub_impacts.size(), 1u);
-  expect_in(result.outcome.message, "thickness");
-}
-
 TEST(APadThickerThanTheBeam, IsASpringThatGivesWayAsFarAsItMust) {
   Case input = rigid_case(ContactKind::linear, 2.0, 0.1);
   input.scene.contact.stiffness = 2e3;

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "environment.h"
 #include "io/records/run_tables.h"
 #include "process.h"
 #include "run_files.h"
@@ -167,8 +166,11 @@ TEST(ThePython, OfTheProgramFindsItsPackageAndTakesAllArguments) {
   const char* look = "import importlib.util as u; print(u.find_spec('subimpact').origin)";
   expect_in(run_anywhere({"python", "-c", look}, 0).output, "python/subimpact/__init__.py");
   run_anywhere({"python", "-c", "import sys; sys.exit(len(sys.argv))", "--help", "-x"}, 3);
-  const Environment nowhere("SUBIMPACT_PYTHON_EXECUTABLE", "/nowhere/python3");
-  expect_in(run_anywhere({"python"}, 2).errors, "/nowhere/python3: cannot be run");
+  const TemporaryDirectory directory;
+  EXPECT_EQ(shell("SUBIMPACT_PYTHON_EXECUTABLE=/nowhere/python3 subimpact python 2> errors",
+                  directory.path),
+            2);
+  expect_in(directory.read("errors"), "/nowhere/python3: cannot be run");
 }
 
 }  // namespace

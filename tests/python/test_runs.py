@@ -111,14 +111,6 @@ def test_times_of_a_run_may_have_a_unit(elastic, without_rows):
         si.run(elastic, within=1)
 
 
-def test_a_curve_that_ends_too_soon_is_named_as_the_cause(elastic):
-    del elastic["contact.stiffness"], elastic["striker.nose_radius"]
-    result = si.run(elastic.changed({"contact.law": "curve", "contact.curve_indentation": [1e-5],
-                                     "contact.curve_force": [100.0]}), error_bars="off")
-    assert result.outcome == "left-validity"
-    assert "0.01 mm, the last point of contact.curve_indentation; add points to it" in result.message
-
-
 def test_progress_that_cannot_be_called_is_refused(elastic, tmp_path):
     for call in (si.run, si.sensitivity, lambda case, progress: si.sweep(case, out=tmp_path, progress=progress)):
         with pytest.raises(TypeError, match="progress is 5; allowed: a function"):

@@ -1,9 +1,8 @@
 #include "simulate/run_parts.h"
 
-#include <sys/resource.h>
-
 #include "address_sanitizer.h"
 #include "refusal.h"
+#include "resource_limit.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/simulate/simulate.h"
 #include "temporary_directory.h"
@@ -13,22 +12,6 @@ namespace subimpact {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A limit of this process (ulimit -v) while it exists.
-class LimitOfMemory {
- public:
-  explicit LimitOfMemory(rlim_t bytes) {
-    getrlimit(RLIMIT_AS, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_AS, &limit);
-  }
-  ~LimitOfMemory() { setrlimit(RLIMIT_AS, &before_); }
-  LimitOfMemory(const LimitOfMemory&) = delete;
-  LimitOfMemory& operator=(const LimitOfMemory&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 void write(const fs::path& path, const std::string& content) {
   fs::create_directories(path.parent_path());
@@ -59,35 +42,22 @@ struct Machine : testing::Test {
 
 using AvailableMemory = Machine;
 
-TEST_F(AvailableMemory, IsThatOfTheMachine) { EXPECT_EQ(available(), 8192e6); }
-
-TEST_F(AvailableMemory, IsWhatTheControlGroupLeaves) {
+TEST_F(AvailableMemory, IsWhatTheMachineAndItsControlGroupsLeave) {
+  EXPECT_EQ(available(), 8192e6);
   enter_group("jobs/one");
   set_group("jobs/one", "3000000000", "1000000000");
   EXPECT_EQ(available(), 2e9);
-}
-
-TEST_F(AvailableMemory, IsWhatAControlGroupAboveLeaves) {
-  enter_group("jobs/one");
   set_group("jobs/one", "max", "1000000000");
   set_group("jobs", "5000000000", "4000000000");
-  EXPECT_EQ(available(), 1e9);
-}
-
-TEST_F(AvailableMemory, IncludesThePagesOfFilesThatAControlGroupHolds) {
-  enter_group("");
-  set_group("", "3000000000", "2900000000", "anon 400000000\nfile 2500000000\nkernel 0\n");
-  EXPECT_EQ(available(), 2.6e9);
-}
-
-TEST_F(AvailableMemory, IsThatOfTheMachineInGroupsWithoutLimit) {
-  enter_group("jobs");
+  EXPECT_EQ(available(), 1e9) << "of the group above";
   set_group("jobs", "max", "1000000000");
-  EXPECT_EQ(available(), 8192e6);
+  EXPECT_EQ(available(), 8192e6) << "no limit";
+  set_group("jobs", "3000000000", "2900000000", "anon 400000000\nfile 2500000000\nkernel 0\n");
+  EXPECT_EQ(available(), 2.6e9) << "with the pages of files";
 }
 
 TEST_F(AvailableMemory, IsNoMoreThanTheLimitOfTheProcess) {
-  const LimitOfMemory limit(1'000'000'000);
+  const ResourceLimit limit(RLIMIT_AS, 1'000'000'000);
   EXPECT_EQ(available(), 1e9);
 }
 
@@ -101,7 +71,7 @@ TEST(CheckMemory, RefusesARunThatTakesMoreThanThereIsAndNamesTheRemedy) {
   ResolvedSettings settings;
   settings.n_unknowns = 20000;
   settings.memory = 3.2e9;
-  const LimitOfMemory limit(1'000'000'000);
+  const ResourceLimit limit(RLIMIT_AS, 1'000'000'000);
   const auto [key, message] = refusal_of([&] { check_memory(settings); });
   EXPECT_EQ(key, "solver.method");
   expect_in(message, "takes some 3.2 GB of memory on this mesh of 20000 unknowns",

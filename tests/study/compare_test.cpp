@@ -158,23 +158,6 @@ TEST(CompareModels, FindsWhatShearAddsToTheFirstContact) {
   EXPECT_EQ(n_leading_matches(runs[1].pairs), 2u);
 }
 
-TEST(CompareModels, EndsWhenProgressSaysSo) {
-  const Case cases[] = {strike(BeamTheory::rayleigh), strike(BeamTheory::timoshenko)};
-  std::size_t begun = 0;
-  const auto runs = compare_models(
-      cases, names, 1, [&](std::size_t i) { begun = i + 1; }, [&](double) { return begun < 2; });
-  EXPECT_EQ(runs.size(), 1u);
-}
-
-TEST(CompareModels, RefusesBeforeAnyRunWhatATheoryCannotModel) {
-  Case elements = strike(BeamTheory::timoshenko);
-  elements.model.mesh = MeshKind::hermite;
-  const Case cases[] = {strike(BeamTheory::rayleigh), elements};
-  std::size_t begun = 0;
-  EXPECT_THROW(compare_models(cases, names, 1, [&](std::size_t) { ++begun; }), InvalidCase);
-  EXPECT_EQ(begun, 0u);
-}
-
 TEST(CompareModels, ByContactLawsDropTheConstantsThatALawDoesNotUse) {
   Case input = strike(BeamTheory::rayleigh);
   input.scene.beam.shear_coefficient.reset();

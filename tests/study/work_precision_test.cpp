@@ -164,19 +164,6 @@ TEST(OrdersAtFixedSteps, AreThoseOfTheTablesWhereForcesAreSmoothAndBoundedByHert
   }
 }
 
-TEST(AWorkPrecisionStudy, RunsEveryMethodWithFixedStepsBothWays) {
-  const WorkPrecision study = work_precision(linear(1e-3), quick({"nystrom", "adams"}));
-  const auto n = [&](const char* method, bool fixed) {
-    return std::ranges::count_if(study.points, [&](const Trial& p) {
-      return p.setting.method == method && p.setting.fixed_step == fixed;
-    });
-  };
-  EXPECT_GE(n("nystrom", false), 3);
-  EXPECT_GE(n("nystrom", true), 3);
-  EXPECT_GE(n("adams", false), 3);
-  EXPECT_EQ(n("adams", true), 0);
-}
-
 TEST(AWorkPrecisionStudy, LeavesOutWhatWouldTakeTooLongAndSaysSo) {
   WorkPrecisionOptions options = quick({"nystrom"});
   options.point_seconds = 1e-9;
@@ -223,14 +210,6 @@ TEST(Recommendation, TellsASettingThatReachesItsErrorByLuckFromOneThatDoesSteadi
   EXPECT_EQ(recommendations[0].steady->seconds, 3.0);
   EXPECT_EQ(recommendations[1].point->seconds, 3.0);
   EXPECT_FALSE(recommendations[1].steady.has_value());
-}
-
-TEST(AMethodThatCannotRunTheCase, IsRefusedBeforeAnythingRuns) {
-  bool announced = false;
-  WorkPrecisionOptions options = quick({"central-difference", "leapfrog"});
-  options.announce = [&](const std::string&) { announced = true; };
-  EXPECT_THROW(work_precision(paper_run(SectionKind::elastic, 1e-3), options), InvalidCase);
-  EXPECT_FALSE(announced);
 }
 
 }  // namespace

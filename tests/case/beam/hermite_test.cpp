@@ -92,20 +92,6 @@ TEST(HermiteElements, BringTheFirstFiveSubImpactsAtFourthOrder) {
   five.expect_overall_order_within(3.6, 4.4);
 }
 
-// Two meshes that have nothing in common come to the same motion.
-TEST(HermiteElements, AgreeWithFineCellsOnEverySupport) {
-  for (const EndSupport end : all_ends) {
-    Case input = hermite_case(SectionKind::elastic, 0.25e-3, 100);
-    input.scene.striker.position = 0.4;
-    input.scene.beam.ends = {end, pinned};
-    const double elements = simulate(input).sub_impacts.at(0).end.value();
-    input.model.mesh = MeshKind::cells;
-    input.model.segments = 1205;
-    const double cells = simulate(input).sub_impacts.at(0).end.value();
-    EXPECT_NEAR(1e6 * elements, 1e6 * cells, 0.3);
-  }
-}
-
 TEST(HermiteElements, AreRefusedWhereTheyDoNotFit) {
   const Case fits = hermite_case(SectionKind::elastic, 1e-4, 40);
   const Settings odd{{"model.elements", 81}}, whole = odd + Settings{{"model.symmetry", "off"}};

@@ -1,7 +1,6 @@
 // Sections that begin to flow, reverse or close loops within a step of a whole run, and what the
 // correction of the step's end is worth. (One section alone: tests/system/section_*_test.cpp.)
 
-#include "order_table.h"
 #include "paper_case.h"
 #include "simulate/loop/event_loop.h"
 #include "simulate/run_parts.h"
@@ -9,67 +8,12 @@
 namespace subimpact {
 namespace {
 
-// The paper's beam from 8 us, just before anything flows, over 52 us and some hundred reversals, by
-// fixed steps that are never cut. (What happens at the first touch, F ~ lambda^1.5, is left out: it
-// has an order of its own.)
-State state_after(double step, double correction_tolerance) {
-  Case input = paper_case(SectionKind::exact, 8e-6, 501, Method::nystrom);
-  input.solver.rtol = 1e-12;
-  ResolvedRun run = resolve(input);
-  StruckBeam& beam = run.parts().beam;
-  RunObserver nobody;
-  const auto first = run.parts().make_integrator();
-  Audit audit(beam, beam.initial_state());
-  EventLoop beginning(beam, *first, nobody, audit, loop_options(run.parts()));
-  beginning.start();
-  while (!beginning.finished()) beginning.advance();
-  EXPECT_EQ(beam.sections().n_yielded(), 0u);
-
-  run.parts().settings.step = step;
-  const auto fixed = run.parts().make_integrator();
-  LoopOptions options = loop_options(run.parts());
-  options.end_time = 52e-6;
-  options.correction_tolerance = correction_tolerance;
-  EventLoop loop(beam, *fixed, nobody, audit, options);
-  loop.start_from(beginning.state());
-  while (!loop.finished()) loop.advance();
-  EXPECT_GT(beam.sections().n_yielded(), 20u);
-  return loop.state();
-}
-
 double largest_difference(const State& a, const State& b) {
   double largest = 0.0;
   for (std::size_t i = a.size() / 2; i < a.size(); ++i) {
     largest = std::max(largest, std::abs(a[i] - b[i]));
   }
   return largest;
-}
-
-constexpr double never_cut = 1e3;
-constexpr double only_at_ends = std::numeric_limits<double>::infinity();
-
-OrderTable errors(const std::string& title, double correction_tolerance) {
-  const State exact = state_after(5e-9, never_cut);
-  OrderTable table(title);
-  for (const double step : {2e-7, 1e-7, 5e-8}) {
-    const State y = state_after(step, correction_tolerance);
-    table.add(1e-6 / step, largest_difference(y, exact));
-  }
-  table.print();
-  return table;
-}
-
-TEST(SectionEvents, CorrectedByTheFirstTermLeaveFifthOrder) {
-  errors("steps per us, corrected by the first term", never_cut)
-      .expect_overall_order_within(4.5, 5.5);
-}
-
-// Steps of 0.2 us are 1.4 radians of the beam's highest frequency.
-TEST(SectionEvents, AreCorrectedToTheTolerance) {
-  const State exact = state_after(5e-9, never_cut);
-  const double loose = largest_difference(state_after(2e-7, never_cut), exact);
-  const double tight = largest_difference(state_after(2e-7, 1e-8), exact);
-  EXPECT_LT(tight, 0.1 * loose);
 }
 
 // The state at the end, and what the integrator did.
@@ -129,11 +73,6 @@ TEST(SectionEvents, ThatMoveTheEndOfAStepPastAnEventLeaveItLocated) {
     const Result result = completed(input);
     EXPECT_GT(result.sub_impacts.back().start, 5.682e-3);
   }
-}
-
-TEST(SectionEvents, NotCorrectedBringAnyMethodDownToSecondOrder) {
-  errors("steps per us, histories advanced at step ends", only_at_ends)
-      .expect_overall_order_within(1.0, 2.6);
 }
 
 }  // namespace

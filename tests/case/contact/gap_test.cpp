@@ -67,30 +67,6 @@ TEST_P(AGap, ShiftsTheTableOfSubImpactsByTheFlightToRounding) {
   }
 }
 
-TEST(AStrikerThatStartsApart, FliesAloneAtItsVelocityUntilItTouches) {
-  Case input = paper_case(SectionKind::elastic, 0.2e-3, 51);
-  input.scene.striker.gap = 1.0005e-3;
-  input.output.interval = 1e-5;
-  const Result result = simulate(input);
-  const double v = input.scene.striker.velocity;
-  const double flight = input.scene.striker.gap / v;
-  ASSERT_FALSE(result.history.empty());
-  EXPECT_EQ(result.history.front().time, 0.0);
-  int n_rows = 0;
-  for (const HistoryRow& row : result.history) {
-    if (row.time >= flight) break;
-    ++n_rows;
-    EXPECT_NEAR(row.indentation, v * row.time - input.scene.striker.gap, 1e-18);
-    EXPECT_EQ(row.striker_velocity, v);
-    EXPECT_EQ(row.force, 0.0);
-    EXPECT_EQ(row.struck_displacement, 0.0);
-    EXPECT_EQ(row.beam_kinetic_energy, 0.0);
-  }
-  EXPECT_EQ(n_rows, 7);
-  EXPECT_EQ(result.transitions.front().kind, EventKind::contact_begins);
-  EXPECT_EQ(result.transitions.front().time, flight);
-}
-
 TEST(AStrikerThatStartsApart, IsRefusedWhereItDoesNotReachTheBeamBeforeTheEnd) {
   Case input = paper_case(SectionKind::elastic, 1e-3);
   input.scene.striker.gap = 0.0159;

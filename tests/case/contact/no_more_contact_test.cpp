@@ -41,14 +41,6 @@ TEST(NoMoreContact, IsNeverFollowedByOne) {
   EXPECT_GT(proven, static_cast<int>(n_scenes / 3));
 }
 
-TEST(NoMoreContact, StopsThePapersStrikeAfterItsSecondZone) {
-  Case input = paper_case(SectionKind::exact, 60e-3, 501, Method::exponential);
-  input.stop = StopRule::no_more_contact;
-  const Result result = completed(input);
-  EXPECT_TRUE(result.no_more_contact);
-  EXPECT_GT(result.sub_impacts.size(), 45u);
-}
-
 // The worst a beam can do: all its energy in the shape that brings the struck point farthest out.
 TEST(NoMoreContact, HoldsAgainstABeamBentTheWorstWay) {
   for (const char* mesh : {"cells", "modal"}) {

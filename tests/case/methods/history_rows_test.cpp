@@ -50,30 +50,6 @@ TEST_F(OpenInterval, AddsRowsDuringContactAlone) {
   EXPECT_EQ(in_flight(result), in_flight(regular));
 }
 
-TEST(TheOpeningAfterASubImpact, IsTheLargestGapOfDenseRowsByEveryMethod) {
-  const std::tuple<Method, SectionKind> ways[] = {{Method::nystrom, SectionKind::exact},
-                                                  {Method::erk, SectionKind::exact},
-                                                  {Method::exponential, SectionKind::elastic},
-                                                  {Method::central_difference, SectionKind::exact}};
-  for (const auto& [method, section] : ways) {
-    Case input = paper_run(section, 7e-4, 101, method);
-    input.output.interval = 2e-8;
-    input.output.shapes = 0.0;
-    const Result result = simulate(input);
-    ASSERT_GT(result.sub_impacts.size(), 3u) << static_cast<int>(method);
-    for (std::size_t i = 0; i + 1 < result.sub_impacts.size(); ++i) {
-      const SubImpact& s = result.sub_impacts[i];
-      double largest = 0.0;
-      for (const HistoryRow& row : result.history) {
-        const bool apart = row.time >= *s.end && row.time <= result.sub_impacts[i + 1].start;
-        if (apart) largest = std::max(largest, s.residual_indentation - row.indentation);
-      }
-      EXPECT_GE(*s.opening, largest * (1.0 - 1e-4)) << static_cast<int>(method) << " " << i;
-      EXPECT_LE(*s.opening, largest * (1.0 + 1e-2)) << static_cast<int>(method) << " " << i;
-    }
-  }
-}
-
 Case case_with_sections(std::vector<double> sections) {
   Case input = paper_case(SectionKind::exact, 2e-4);
   input.output.interval = 1e-6;

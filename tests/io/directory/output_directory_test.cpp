@@ -3,8 +3,8 @@
 #include <sys/stat.h>
 #include <sstream>
 
-#include "file_size_limit.h"
 #include "io/directory/listed_files.h"
+#include "resource_limit.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
 #include "testing.h"
@@ -210,7 +210,7 @@ TEST_F(AKilledWriter, LeavesTheNewerFilesFromItsManifestOn) {
 TEST_F(AFullDisk, IsNamedByTheFileThatCannotBeWritten) {
   std::string message;
   {
-    const FileSizeLimit limit(1000);
+    const ResourceLimit limit(RLIMIT_FSIZE, 1000);
     message = message_of<OutputError>(
         [&] { write_file(directory.path / "events.csv", std::string(5000, 'x')); });
   }

@@ -230,15 +230,6 @@ TEST(SummaryJson, ListsUncertainFlights) {
   EXPECT_EQ(json.at("first_unresolved_index"), 3);
 }
 
-TEST(SummaryJson, ListsNearMissesInTheirOrderInTime) {
-  const auto json = parsed_summary(sample_case(), sample_result()).at("near_misses");
-  ASSERT_EQ(json.size(), 2u);
-  EXPECT_EQ(json[0].at("kind"), "opening");
-  EXPECT_EQ(json[0].at("time_s"), 0.1e-3 / 3.0);
-  EXPECT_EQ(json[0].at("margin_m"), 2.1e-8 / 3.0);
-  EXPECT_EQ(json[1].at("kind"), "closing");
-}
-
 TEST(SummaryJson, StaysValidWhenNumbersAreNot) {
   Case input = sample_case();
   input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();

@@ -21,30 +21,6 @@ TEST(RunSummary, GivesAReasonOnce) {
   expect_in(line_of(summary, "runs beside"), "the same, coarser");
 }
 
-TEST(FinerMeshes, HaveSubImpactsAndConfirmSome) {
-  Result result = sample_result_with_errors(3);
-  result.error_estimate->finer_meshes = {"1003 cells", 54, 2, {}, {}};
-  expect_in(finer_meshes_words(result), "1003 cells have 54 sub-impacts and confirm 2 of these 3;");
-  result.sub_impacts.resize(1);
-  result.error_estimate->finer_meshes = {"63 cells", 1, 1, {}, {}};
-  expect_in(finer_meshes_words(result), "63 cells have 1 sub-impact and confirm the one here;");
-  result.error_estimate->finer_meshes->n_same = 0;
-  expect_in(finer_meshes_words(result), "63 cells have 1 sub-impact and do not confirm the one");
-}
-
-TEST(ModelTable, GivesTimesWithErrorsAndHowMuchLaterTheyCome) {
-  ModelRun rayleigh{"rayleigh", sample_result_with_errors(3), {}};
-  ModelRun timoshenko{"timoshenko", sample_result_with_errors(3), {}};
-  timoshenko.result.sub_impacts[0].end = 1e-6 * 353.583;
-  for (std::size_t i = 0; i < 3; ++i) {
-    rayleigh.pairs.push_back({i, i});
-    timoshenko.pairs.push_back({i, i});
-  }
-  const std::string table = model_table({rayleigh, timoshenko});
-  expect_in(table, "353.583 +- 0.017", "+20.25",  // 353.583 - 333.333
-            "timoshenko: 3 sub-impacts, 3 by rayleigh", "the first 3 correspond", "20.25 us apart");
-}
-
 TEST(ErrorWords, NameTheErrorOfCertainTimesOrTheFirstDoubt) {
   Result touch = sample_result_with_errors(3), between = sample_result_with_errors(1);
   touch.sub_impacts.erase(touch.sub_impacts.begin(), touch.sub_impacts.end() - 1);
@@ -163,15 +139,6 @@ TEST(RunSummary, WeighsBeamAndStriker) {
   input.scene.beam.width *= 1e3;
   input.scene.beam.thickness *= 1e3;
   expect_in(summary_of(input, sample_result()), "beam of 2.261e+05 t");
-}
-
-TEST(RunSummary, KeepsMeshAndWorkForTheVerbose) {
-  const std::string summary = summary_of(paper_case(), sample_result_with_errors(3));
-  const std::string verbose = summary_of(paper_case(), sample_result_with_errors(3), true);
-  for (const char* label : {"  mesh ", "  method ", "  conservation ", "  work "}) {
-    expect_not_in(summary, label);
-    expect_in(verbose, label);
-  }
 }
 
 TEST(RunSummary, WrapsItsLinesAt100ColumnsAndKeepsErrorsWithTheirNumbers) {

@@ -214,7 +214,8 @@ TEST(TheFirstMeshOfAChoice, TakesEveryStrikeAndShowsIt) {
   for (const double yield_stress : {355e6, std::numeric_limits<double>::infinity()}) {
     for (const BeamTheory theory :
          {BeamTheory::euler_bernoulli, BeamTheory::rayleigh, BeamTheory::timoshenko}) {
-      for (const auto& [position, mass] : {std::pair(0.992, 0.5), {0.03, 0.5}, {0.4, 0.04}}) {
+      for (const auto& [position, mass] :
+           {std::pair(1.0, 0.5), {0.992, 0.5}, {0.03, 0.5}, {0.4, 0.04}}) {
         const Case input = struck_at(position, mass, yield_stress, theory);
         const Case first = first_choice(input, {}).input;
         EXPECT_FALSE(mesh_doubt(first, resolve(first).settings()))

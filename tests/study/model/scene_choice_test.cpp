@@ -149,22 +149,6 @@ TEST(SceneChoice, OfACylinderOnAPlaneIsALineByDepthWhereThePlaneHasAThickness) {
   EXPECT_TRUE(simulate(thick).outcome.completed());
 }
 
-TEST(SceneChoice, OnAPlaneIsThatOnAVeryHeavyBlock) {
-  Case plane = ball_on_plane(), block = plane;
-  Beam& beam = block.scene.beam;
-  beam.fixed = false;
-  beam.length = 10.0;
-  beam.width = beam.thickness = 1.0;
-  choose_scene(plane, {});
-  choose_scene(block, {});
-  EXPECT_EQ(block.scene.contact.kind, plane.scene.contact.kind);
-  const double mass = beam.mass();
-  const Result on_plane = simulate(plane), on_block = simulate(block);
-  const double change = on_block.max_force / on_plane.max_force - 1.0;
-  EXPECT_LT(change, 0.0);  // the energy of the reduced mass m M/(m + M)
-  EXPECT_NEAR(change, 0.0, 1.0 / mass);
-}
-
 // As a case with --set model.elements = 40 and nothing else is read.
 Case with_elements(Case input, int elements) {
   input.model.mesh = MeshKind::hermite;
