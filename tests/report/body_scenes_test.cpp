@@ -121,7 +121,8 @@ TEST(BodyErrorsOfScenes, HaveGravityAndTheNoseWhereTheCaseLeavesThemOpen) {
 }
 
 TEST(BodyErrorsOfScenes, OfWhatIsDecidedEarlyDoNotDependOnTheEnd) {
-  const Result first = run_of(strike), longer = run_of(strike, {"time.end=0.002"});
+  const Result first = run_of(strike, {"accuracy.work_limit=3e7"}),
+               longer = run_of(strike, {"accuracy.work_limit=3e7", "time.end=0.002"});
   for (const BodyErrors::Part& part : first.body_errors->parts) {
     for (const auto figure : {&StrikeFigures::parting, &StrikeFigures::peak_force}) {
       const double change = part_of(first, part.kind, figure);
@@ -191,7 +192,8 @@ length = 0.6
 width = 0.05
 thickness = 0.01
 ends = ["pinned", "pinned"]
-)");
+)",
+                               {"model.segments=201"});
   ASSERT_TRUE(result.body_errors);
   EXPECT_LT(*result.body_errors->at_least.peak_force, 300e3);
   EXPECT_LT(part_of(result, BodyPart::stretching, &StrikeFigures::peak_force), 40e3);
@@ -205,7 +207,7 @@ TEST(BodyErrorsOfScenes, OfRepeatedStrikesAreThoseOfTheLast) {
 }
 
 TEST(BodyErrorsOfScenes, OfZonesAndSubImpactsAreSumsOfTheirParts) {
-  const Result result = run_of(strike, {"time.end=0.008"});
+  const Result result = run_of(strike, {"time.end=0.008", "accuracy.work_limit=6e7"});
   ASSERT_TRUE(result.body_errors);
   const BodyErrors& errors = *result.body_errors;
   ASSERT_GE(errors.value.zones.size(), 2U);
