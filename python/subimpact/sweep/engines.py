@@ -216,7 +216,7 @@ class Coordinator:
             error = future.exception()
             if error is None:
                 chunk, seconds = future.result()
-                rows.update(zip(numbers, chunk, strict=True))
+                rows.update(zip(numbers, chunk))
                 self._seconds += seconds
                 self._n_timed += len(numbers)
             elif _is_death(error):
@@ -244,7 +244,7 @@ class Coordinator:
         for future in list(self._futures):
             numbers = self._futures.pop(future)
             if future.done() and not future.cancelled() and future.exception() is None:
-                self._sink(dict(zip(numbers, future.result()[0], strict=True)))
+                self._sink(dict(zip(numbers, future.result()[0])))
             else:
                 self._suspects.extend(numbers)
         self._engine.restart()

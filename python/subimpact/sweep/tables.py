@@ -59,7 +59,7 @@ def _write_rows(
     sub_impacts.write("run," + events_heading() + "\n")
     numbers = sorted(identities)
     rows = store.rows_of([identities[number] for number in numbers])
-    for number, row in zip(numbers, rows, strict=True):
+    for number, row in zip(numbers, rows):
         if row is None:
             continue
         outcome = cell(row.outcome)
