@@ -1,4 +1,7 @@
-// Strain gauges: against moments along the beam, a load at rest, a vibration, and yielding fibres.
+// Strain gauges and points: against moments along the beam, a load at rest, modal sums, and
+// yielding fibres.
+
+#include <Eigen/Dense>
 
 #include "case/problem.h"
 #include "linear_case.h"
@@ -93,7 +96,6 @@ TEST(Gauges, AgreeWithTheClosedFormOfABeamUnderAForce) {
   input.output.interval = 1e-5;
   const std::vector<double> places = {0.0, 0.1, 0.25, 0.3333, 0.45, 0.6, 0.9};
   for (const double x : places) input.output.gauges.push_back({x});
-  input.output.points = places;
   const Beam& beam = input.scene.beam;
   const double per_moment = 0.5 * beam.thickness / beam.bending_stiffness();
   const double largest = per_moment * 0.25 * force * beam.length;
@@ -105,14 +107,67 @@ TEST(Gauges, AgreeWithTheClosedFormOfABeamUnderAForce) {
       EXPECT_NEAR(row.gauge_strains[i], per_moment * moment, 1e-9 * largest) << places[i];
     }
   }
-  ASSERT_EQ(result.point_history.size(), result.history.size() * places.size());
-  const double sag = force * std::pow(beam.length, 3) / (48.0 * beam.bending_stiffness());
-  for (const PointRow& row : result.point_history) {
-    // Cells bend to second order in their length.
-    const double x = std::min(row.position / beam.length, 1.0 - row.position / beam.length);
-    EXPECT_NEAR(row.displacement, sag * x * (3.0 - 4.0 * x * x), 2e-4 * sag) << x;
-    EXPECT_NEAR(row.velocity, 0.0, 1e-9);
+}
+
+// The striker on its spring and the modes sin(k pi x/l) of a pinned beam as one eigenproblem, valid
+// up to the end of the first contact. Modes beyond the first n follow the force as at rest.
+TEST(APoint, MovesAsAModalSumOfAPinnedBeamStruckAtAThird) {
+  using Real =
+      long double;  // rounding of the largest squared frequency must not reach the smallest
+  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  Case input = linear_case(MeshKind::hermite, 900, third, EndSupport::pinned);
+  input.scene.contact.stiffness = 1e5;
+  input.solver.method = Method::exponential;
+  input.solver.rtol = 1e-12;
+  input.output.interval = 2e-5;
+  input.output.points = {0.5, 0.1};
+  constexpr int n = 240;
+  const Beam& beam = input.scene.beam;
+  const Real l = beam.length, struck_at = l * third;
+  const auto wave = [&](int k) { return (k + 1) * std::numbers::pi_v<Real> / l; };
+  const auto stiffness = [&](int k) {
+    return beam.bending_stiffness() * std::pow(wave(k), 4) * l / 2;
+  };
+  const auto compliance_of_rest = [&](Real x) {
+    Real sum = 0.0;
+    for (int k = n; k < 20 * n; ++k) {
+      sum += std::sin(wave(k) * x) * std::sin(wave(k) * struck_at) / stiffness(k);
+    }
+    return sum;
+  };
+  const Real spring = 1 / (1 / Real(1e5) + compliance_of_rest(struck_at));
+  Vector root_mass(n + 1), indentation(n + 1);
+  Matrix matrix = Matrix::Zero(n + 1, n + 1);
+  for (int k = 0; k < n; ++k) {
+    const Real mass = beam.mass_per_length() + beam.rotary_inertia() * wave(k) * wave(k);
+    root_mass(k) = std::sqrt(mass * l / 2);
+    matrix(k, k) = stiffness(k);
+    indentation(k) = -std::sin(wave(k) * struck_at);
   }
+  root_mass(n) = std::sqrt(input.scene.striker.mass);
+  indentation(n) = 1.0;
+  matrix += spring * indentation * indentation.transpose();
+  const auto inverse = root_mass.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(inverse * matrix * inverse);
+  const Vector omega = solver.eigenvalues().cwiseSqrt();
+  const Vector rates =
+      solver.eigenvectors().row(n).transpose() * root_mass(n) * input.scene.striker.velocity;
+  const Result result = completed(input);
+  const double end = result.end_of(result.sub_impacts.front());
+  ASSERT_GT(end, 1e-4);
+  Real largest = 0.0, error = 0.0;
+  for (const PointRow& row : result.point_history) {
+    if (row.time > end) break;
+    const Vector amplitudes =
+        rates.array() * (omega.array() * Real(row.time)).sin() / omega.array();
+    const Vector unknowns = inverse * (solver.eigenvectors() * amplitudes);
+    Real expected = spring * indentation.dot(unknowns) * compliance_of_rest(row.position);
+    for (int k = 0; k < n; ++k) expected += std::sin(wave(k) * row.position) * unknowns(k);
+    largest = std::max(largest, std::abs(expected));
+    error = std::max(error, std::abs(row.displacement - expected));
+  }
+  EXPECT_LT(error, 1e-8 * largest);
 }
 
 // --- yielding ------------------------------------------------------------------------------------
