@@ -48,29 +48,33 @@ void check_scales(const Case& input) {
   const std::array keys = {"beam.length",  width_key(beam),       height_key(beam),
                            "beam.density", "beam.youngs_modulus", "beam.yield_stress",
                            "striker.mass", "striker.velocity"};
-  std::array<double, keys.size()> decades;
-  std::ranges::transform(keys, decades.begin(), [&](auto* key) { return decades_of(input, key); });
-  const auto [l, b, h, rho, E, Y, m, v] = decades;
   struct Quantity {
     const char *name, *unit;
-    double decades;
+    std::array<double, 8> powers;  // of the keys
   };
-  for (const auto& [name, unit, product] :
-       {Quantity{"mass of the beam", " kg", rho + b + h + l},
-        {"moment of inertia of the beam", " kg m2", rho + b + h + 3.0 * l},
-        {"rotary inertia of the sections", " kg m", rho + b + 3.0 * h},
-        {"bending stiffness", " N m2", E + b + 3.0 * h},
-        {"stiffness of the beam", " N/m", E + b + 3.0 * (h - l)},
-        {"square of the beam's lowest frequency", " 1/s2", E - rho + 2.0 * h - 4.0 * l},
-        {"slenderness of the beam", "", h - l},
-        {"yield curvature", " 1/m", Y - E - h},
-        {"yield moment", " N m", Y + b + 2.0 * h},
-        {"energy of the strike", " J", m + 2.0 * v}}) {
-    if (std::abs(product) <= most_decades) continue;
-    const auto size = [](double x) { return std::abs(x); };
-    const auto farthest = std::ranges::max_element(decades, {}, size) - decades.begin();
-    refuse_scale(input, keys[static_cast<std::size_t>(farthest)],
-                 fmt::format(", with which the {} is some 1e{:+.0f}{}", name, product, unit));
+  for (const Quantity& of : {Quantity{"mass of the beam", " kg", {1, 1, 1, 1}},
+                             {"moment of inertia of the beam", " kg m2", {3, 1, 1, 1}},
+                             {"rotary inertia of the sections", " kg m", {0, 1, 3, 1}},
+                             {"bending stiffness", " N m2", {0, 1, 3, 0, 1}},
+                             {"stiffness of the beam", " N/m", {-3, 1, 3, 0, 1}},
+                             {"square of the beam's lowest frequency", " 1/s2", {-4, 0, 2, -1, 1}},
+                             {"slenderness of the beam", "", {-1, 0, 1}},
+                             {"yield curvature", " 1/m", {0, 0, -1, 0, -1, 1}},
+                             {"yield moment", " N m", {0, 1, 2, 0, 0, 1}},
+                             {"energy of the strike", " J", {0, 0, 0, 0, 0, 0, 1, 2}}}) {
+    double sum = 0.0, largest = 0.0;
+    const char* farthest = "";
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const double decades = of.powers[i] * decades_of(input, keys[i]);
+      sum += decades;
+      if (std::abs(decades) > largest) {
+        largest = std::abs(decades);
+        farthest = keys[i];
+      }
+    }
+    if (std::abs(sum) <= most_decades) continue;
+    refuse_scale(input, farthest,
+                 fmt::format(", with which the {} is some 1e{:+.0f}{}", of.name, sum, of.unit));
   }
 }
 
@@ -218,12 +222,17 @@ void check_section(const Case& input) {
   const bool is_hollow =
       shape == SectionShape::tube || shape == SectionShape::box || shape == SectionShape::i;
   if (is_hollow && !(gap.height > 0.0 && gap.width > 0.0)) {
+    const bool is_i = shape == SectionShape::i, too_wide = gap.height > 0.0;
+    const double limit = !is_i      ? 0.5 * std::min(outer.height, outer.width)
+                         : too_wide ? outer.width
+                                    : 0.5 * outer.height;
     refuse_section(input,
-                   shape != SectionShape::i ? "beam.section.wall"
-                   : gap.height > 0.0       ? "beam.section.web"
-                                            : "beam.section.flange",
-                   "leaves no gap in the section; allowed: walls and flanges below half of its "
-                   "height and width, a web below its width; reduce it, or use a solid shape");
+                   !is_i      ? "beam.section.wall"
+                   : too_wide ? "beam.section.web"
+                              : "beam.section.flange",
+                   fmt::format("leaves no gap in the section; allowed: below {:g} m; reduce it, or "
+                               "use a solid shape",
+                               limit));
   }
   if (input.parts.section && shape != SectionShape::rectangle) {
     refuse_section(input, "beam.section.shape",
