@@ -261,7 +261,7 @@ struct Answer {
     bool has_end = true;
     Total sub_impacts, start, end, impulse;                            ///< s, N s
     std::optional<double> start_body_error = {}, end_body_error = {};  ///< s; none: not known
-    /// Words: all of it; "from 5.1 ms: 2 sub-impacts", and the errors of that time.
+    /// Words: the whole item; "from 5.1 ms: 2 sub-impacts"; both errors of its start.
     std::string text = {}, begin_text = {}, error_text = {}, body_text = {};
   };
   AnswerKey key;

@@ -96,7 +96,8 @@ class Doubts {
     length("beam.length", is_long);
     length(width_key(beam_), !beam_.is_round() && (large || wide || (any && b > 1.0)));
     length(height_key(beam_), large || deep || (any && h > 1.0));
-    length("striker.nose_radius", nose > 1.0 && (any || nose > largest_nose * l));
+    doubt(nose > 1.0 && (any || nose > largest_nose * l), "striker.nose_radius", {{"mm", 1e-3}},
+          0.0, INFINITY, ", on a beam of {:.4g} m", l);
   }
 
   void times() {

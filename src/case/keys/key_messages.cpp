@@ -101,6 +101,7 @@ std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
   }
   const std::string_view unit = split_unit(*text).unit;
   if (unit.empty()) return "; numbers are written without quotes";
+  if (unit.front() == ',') return "; numbers have a decimal point";
   const std::string units = units_beside(is_position(key) ? "m" : key.unit);
   const bool is_known = value_in(key.unit, *text).has_value();
   return units.empty() || is_known ? "; write the number without a unit"
