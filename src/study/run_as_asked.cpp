@@ -47,7 +47,7 @@ WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& reques
   const bool is_interrupted = run.result.outcome.kind == OutcomeKind::stopped;
   const bool has_errors = request.error_bars != ErrorBars::off && !is_interrupted;
   if (has_errors && request.body_errors) {
-    add_body_errors(run.input, run.result, given, request.progress);
+    add_body_errors(run.input, run.result, request.progress);
   }
   run.result.work.all_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -118,7 +118,7 @@ WithinRun strike_repeatedly(Case next, const GivenKeys& given, RunRequest& reque
   if (has_body_errors && std::ssize(strikes) == n) {
     next.parts.start.reset();
     next.strikes = n;
-    add_body_errors(next, run->result, given, request.progress);
+    add_body_errors(next, run->result, request.progress);
   }
   run->result.strikes = std::move(strikes);
   run->input.strikes = n;

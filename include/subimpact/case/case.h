@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "subimpact/model/contact/contact_law.h"
@@ -67,10 +68,11 @@ struct CaseParts {
 /// A case: the options of its run, and what they apply to.
 struct Case : Options {
   std::string title;
-  /// Why theory and contact law are what they are, if they were chosen
-  /// (study/model.h); no key.
+  /// Why theory and contact law are what they are, if they were chosen (study/model.h); no key.
   std::string model_choice;
   bool theory_is_chosen = false;  ///< by the program, with the shear that matters; no key
+  /// Of "beam.poisson" and "scene.gravity" those that nobody gave: parts of body errors; no key.
+  std::set<std::string> assumed;
   Scene scene;
   ModelOptions model;
   /// Relative standard deviations of numbers of the scene, by key: "striker.velocity". They do not

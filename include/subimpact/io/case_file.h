@@ -60,8 +60,8 @@ LoadedCase read_case_text(const std::string& text, const std::string& name,
                           const std::vector<Override>& overrides = {},
                           const KeyChooser& choose = {});
 
-/// A case as the text of a case file: every key that has a value, under its table, with its unit.
-/// read_case_text() reads the same case back.
+/// A case as the text of a case file: every key that has a value, with its unit; those in
+/// Case::assumed as comments. read_case_text() with choose_scene() reads the same case back.
 std::string case_file_text(const Case& input);
 
 /// Identifies the results of a case: a hash, 32 hexadecimal digits, of the program's version, the

@@ -37,8 +37,7 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given);
 inline constexpr double usual_poisson = 0.3;
 
 /// Sets Result::body_errors and those of sub-impacts: how far the real beam may be from the model
-/// of a run, by the parts of docs/model.md. `given`: the keys of the user; what they and the
-/// material leave open is a part.
+/// of a run, by the parts of docs/model.md, those in Case::assumed among them.
 ///
 /// Most come from runs with one thing changed, on meshes of the run's own kind and with a sixth of
 /// the counted work of the run and those beside it, at least some 4e6: to twice the time of the
@@ -49,7 +48,6 @@ inline constexpr double usual_poisson = 0.3;
 ///
 /// Nothing is set where `progress` stops it, for runs that did not complete or without contact, on
 /// an earlier state, and with parts of the caller's own.
-void add_body_errors(const Case& input, Result& result, const GivenKeys& given = {},
-                     const Progress& progress = {});
+void add_body_errors(const Case& input, Result& result, const Progress& progress = {});
 
 }  // namespace subimpact

@@ -146,6 +146,9 @@ class Reader {
     LoadedCase loaded(name_, std::move(places));
     loaded.value = std::move(read);
     loaded.given = given_keys();
+    for (const char* key : {"beam.poisson", "scene.gravity"}) {
+      if (!loaded.given.contain(key)) loaded.value.assumed.insert(key);
+    }
     if (problems_.empty()) {
       try {
         if (choose) loaded.chosen = choose(loaded.value, loaded.given);

@@ -181,7 +181,9 @@ std::string case_file_text(const Case& input) {
       text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);
     }
     const auto* words = std::get_if<std::string>(&*value);
-    text += fmt::format("{} = {}{}\n", key.leaf(), words ? toml_text(*words) : to_text(*value),
+    const char* comment = input.assumed.contains(key.name) ? "# assumed: " : "";
+    text += fmt::format("{}{} = {}{}\n", comment, key.leaf(),
+                        words ? toml_text(*words) : to_text(*value),
                         key.unit.empty() || words ? "" : "  # " + key.unit);
   }
   return text;

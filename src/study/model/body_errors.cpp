@@ -71,7 +71,7 @@ double opening_near(double time, const Result& run) {
 
 class Study {
  public:
-  Study(const Case& input, const GivenKeys& given, const Result& result, const Progress& progress)
+  Study(const Case& input, const Result& result, const Progress& progress)
       : input_(input), result_(result), progress_(progress) {
     errors_.value = figures_of(result);
     if (!yields(result)) {
@@ -83,7 +83,7 @@ class Study {
     touch_ = result.sub_impacts.front().start;
     energy_ = std::max(result.used.initial_energy, 0.0) + std::max(result.final_energies.work, 0.0);
     largest_force_ = largest_possible_force(with_elastic_contact(input_), result);
-    variants_ = body_variants(input_, given, yields(result));
+    variants_ = body_variants(input_, yields(result));
   }
 
   /// Whether it was not stopped.
@@ -357,14 +357,13 @@ class Study {
 
 }  // namespace
 
-void add_body_errors(const Case& input, Result& result, const GivenKeys& given,
-                     const Progress& progress) {
+void add_body_errors(const Case& input, Result& result, const Progress& progress) {
   const CaseParts& own = input.parts;
   if (own.mesh || own.contact_law || own.section || own.start || result.sub_impacts.empty() ||
       !result.outcome.completed()) {
     return;
   }
-  Study study(input, given, result, progress);
+  Study study(input, result, progress);
   if (study.run()) study.store(result);
 }
 

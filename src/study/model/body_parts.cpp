@@ -148,7 +148,7 @@ Case under_gravity(const Case& input) {
 
 }  // namespace
 
-std::vector<BodyVariant> body_variants(const Case& input, const GivenKeys& given, bool yields) {
+std::vector<BodyVariant> body_variants(const Case& input, bool yields) {
   const Beam& beam = input.scene.beam;
   const bool bends = descriptor_of(input.model.mesh).bends && !beam.fixed;
   std::vector<BodyVariant> all;
@@ -159,18 +159,15 @@ std::vector<BodyVariant> body_variants(const Case& input, const GivenKeys& given
     all.back().cases.front().model.mesh = default_mesh(all.back().cases.front());
   }
   if (const auto law = law_of(input)) all.push_back(*law);
-  const bool has_poisson = given.contain("beam.poisson") || given.contain("contact.beam_poisson");
-  if (input.scene.beam_poisson() && !has_poisson && !beam.material) {
-    all.push_back({BodyPart::poisson, {with(input, [](Scene& scene) {
-                     for (auto* poisson : {&scene.beam.poisson, &scene.contact.beam_poisson}) {
-                       if (*poisson) **poisson += larger_poisson;
-                     }
-                   })}});
+  const bool assumes_poisson = input.assumed.contains("beam.poisson");
+  if (beam.poisson && assumes_poisson && !input.scene.contact.beam_poisson) {
+    all.push_back({BodyPart::poisson,
+                   {with(input, [](Scene& scene) { *scene.beam.poisson += larger_poisson; })}});
   }
   if (const auto steel = with_steel_contact(input)) {
     all.push_back({BodyPart::nose, {steel->input}});
   }
-  if (input.scene.gravity == 0.0 && !given.contain("scene.gravity")) {
+  if (input.assumed.contains("scene.gravity")) {
     all.push_back({BodyPart::gravity, {under_gravity(input)}});
   }
   const bool is_held = std::ranges::count(beam.ends, EndSupport::free) == 0;

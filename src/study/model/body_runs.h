@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "study/refinement/refinement.h"
-#include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
 
@@ -21,7 +20,7 @@ struct BodyVariant {
 };
 
 /// Those that a run can show. `yields`: whether sections of the run do.
-std::vector<BodyVariant> body_variants(const Case& input, const GivenKeys& given, bool yields);
+std::vector<BodyVariant> body_variants(const Case& input, bool yields);
 
 /// The case with a contact that never yields.
 Case with_elastic_contact(Case input);

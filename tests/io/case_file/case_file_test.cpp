@@ -38,6 +38,22 @@ TEST(CaseFileText, IsReadBackAsTheSameCase) {
   }
 }
 
+TEST(CaseFileText, HasWhatNobodyGaveInCommentsSoThatACopyAssumesItToo) {
+  const auto read = [](const std::string& text) { return read_case_text(text, "copy").value; };
+  for (const std::string given : {"", "[scene]\ngravity = 0\n"}) {
+    Case input = read(small_case_text() + given);
+    input.scene.beam.poisson = 0.3;  // as chosen for a theory that needs it
+    const std::string text = case_file_text(input);
+    const auto has = [&](const char* line) { return text.find(line) != std::string::npos; };
+    EXPECT_TRUE(has("\n# assumed: poisson = 0.3\n")) << text;
+    EXPECT_EQ(has("\ngravity = 0  # m/s2\n"), !given.empty()) << text;
+    EXPECT_EQ(has("\n# assumed: gravity = 0  # m/s2\n"), given.empty()) << text;
+    const Case copy = read(text);
+    EXPECT_EQ(copy.assumed, input.assumed);
+    EXPECT_FALSE(copy.scene.beam.poisson);
+  }
+}
+
 TEST(CaseFile, PlacesThingsByFractionsAndByLengths) {
   const std::string gauges =
       "output.gauges=[{position=0.25}, {position=\"300 mm\", face=\"front\"}]";

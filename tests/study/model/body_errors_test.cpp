@@ -13,7 +13,7 @@ namespace {
 
 std::optional<BodyErrors> body_errors(const Case& input, Result result,
                                       const Progress& progress = {}) {
-  add_body_errors(input, result, {}, progress);
+  add_body_errors(input, result, progress);
   return result.body_errors;
 }
 

@@ -117,7 +117,7 @@ class Scene {
       ++found_.n_failed;
       return;
     }
-    const double taken = seconds_of([&] { add_body_errors(run.input, run.result, loaded_.given); });
+    const double taken = seconds_of([&] { add_body_errors(run.input, run.result); });
     found_.body_seconds += taken;
     if (taken > std::max(0.03, 0.25 * run_seconds_)) {
       ++found_.n_too_dear;
@@ -137,8 +137,7 @@ class Scene {
     const std::optional<Result> base = full_run(run.input, run.result);
     if (!base) return;
     std::map<BodyPart, StrikeFigures> again;
-    for (const BodyVariant& variant :
-         body_variants(run.input, loaded_.given, run.result.n_yielded_sections > 0)) {
+    for (const BodyVariant& variant : body_variants(run.input, run.result.n_yielded_sections > 0)) {
       StrikeFigures& change = again[variant.kind];
       const std::optional<Result> own = variant.base ? full_run(*variant.base, run.result) : base;
       for (const Case& other : variant.cases) {
