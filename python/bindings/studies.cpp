@@ -1,3 +1,4 @@
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -110,29 +111,30 @@ Case affordable(const Case& input, double n_runs) {
   return ratio >= 1.0 ? input : resized(input, std::max(ratio, coarsest)).value_or(*coarse);
 }
 
-using Times = std::vector<std::pair<double, double>>;  // start and end, s; infinity: still open
-
-std::vector<SubImpact> sub_impacts_at(const Times& times) {
-  std::vector<SubImpact> all(times.size());
+// Starts and ends of a table of sub-impacts; without an end where it is NaN.
+std::vector<SubImpact> times_of(const py::array& table) {
+  const auto starts = table["start_s"].cast<std::vector<double>>();
+  const auto ends = table["end_s"].cast<std::vector<double>>();
+  std::vector<SubImpact> all(starts.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].start = times[i].first;
-    if (std::isfinite(times[i].second)) all[i].end = times[i].second;
+    all[i].start = starts[i];
+    if (!std::isnan(ends[i])) all[i].end = ends[i];
   }
   return all;
 }
 
 // Pairs of indices; none where the other run has no counterpart.
-auto matched(const Times& first, const Times& second) {
+auto matched(const py::array& first, const py::array& second) {
   std::vector<std::pair<std::optional<std::size_t>, std::optional<std::size_t>>> pairs;
-  for (const auto& pair : match_sub_impacts(sub_impacts_at(first), sub_impacts_at(second))) {
+  for (const auto& pair : match_sub_impacts(times_of(first), times_of(second))) {
     pairs.emplace_back(pair.first, pair.second);
   }
   return pairs;
 }
 
-auto counterparts_of(const Times& base, const Times& other) {
-  const std::vector<SubImpact> there = sub_impacts_at(other);
-  const Counterparts found = counterparts(sub_impacts_at(base), there);
+auto counterparts_of(const py::array& base, const py::array& other) {
+  const std::vector<SubImpact> there = times_of(other);
+  const Counterparts found = counterparts(times_of(base), there);
   std::vector<std::optional<std::size_t>> of;
   for (const SubImpact* one : found.of) {
     of.push_back(one != nullptr ? std::optional(static_cast<std::size_t>(one - there.data()))

@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 from . import _core
 from ._errors import CaseError, OutputError
-from ._text import printable
+from ._text import printable, say
 from .case import Case
 from .sweep.engines import n_cores
 from .sweep.interruption import Interruption
@@ -41,14 +41,6 @@ class Display:
     def end(self) -> None:
         if self._is_shown:
             print("\r\033[K", end="", file=sys.stderr, flush=True)
-
-
-def say(text: str) -> None:
-    """A message on stderr, which may be gone with its terminal."""
-    try:
-        print(printable(text), file=sys.stderr)
-    except OSError:
-        pass
 
 
 def text_of_table(columns: Sequence[Sequence[str]], widths: Sequence[int], ends: Sequence[str]) -> str:

@@ -19,8 +19,7 @@ from ._text import path_text
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-_WHOLE = {"index", "zone", "subzone", "certain", "section", "spring", "strike", "sub_impacts"}
-_WORDS = {"kind", "doubt"}
+_EMPTY = {"f": "nan", "i": "-1", "U": ""}  # by the kind of a column
 
 
 class Stored:
@@ -42,24 +41,17 @@ class Stored:
     def table(self, name: str) -> npt.NDArray[np.void]:
         """A structured array, read-only. Empty cells: NaN, -1, ""."""
         file = f"{'events' if name == 'sub_impacts' else name}.csv"
+        empty = _core.no_rows(name)
         if file not in self.files:
-            return _core.no_rows(name)
-        heading, _, body = self.files[file].partition(b"\n")
-        names = heading.decode().split(",")
-        if _WORDS.isdisjoint(names):
-            columns = list(_numbers(body, len(names), file).T)
-        else:
-            rows = list(csv.reader(body.decode(errors="replace").splitlines()))
-            if any(len(row) != len(names) for row in rows):
-                raise ResultsError(f"{file}: has rows of other than {len(names)} cells; run the case again")
-            cells = list(zip(*rows)) or [()] * len(names)
-            columns = [np.array(column) if each in _WORDS else np.array([float(cell or "nan") for cell in column])
-                       for each, column in zip(names, cells)]
-        formats = [f"U{max(16, *map(len, column.tolist()), 0)}" if each in _WORDS else "i8" if each in _WHOLE else "f8"
-                   for each, column in zip(names, columns)]
-        table = np.empty(len(columns[0]), dtype=np.dtype(list(zip(names, formats))))
-        for each, column in zip(names, columns):
-            table[each] = np.nan_to_num(column, nan=-1) if each in _WHOLE else column
+            return empty
+        heading, *rows = csv.reader(self.files[file].decode(errors="replace").splitlines())
+        if any(len(row) != len(heading) for row in rows):
+            raise ResultsError(f"{file}: has rows of other than {len(heading)} cells; run the case again")
+        known = empty.dtype.names or ()  # not of gauges
+        kinds = [empty.dtype[column].kind if column in known else "f" for column in heading]
+        types = [f"U{max([16, *(len(row[k]) for row in rows)])}" if kind == "U" else f"{kind}8" for k, kind in enumerate(kinds)]
+        cells = [tuple(cell or _EMPTY[kind] for cell, kind in zip(row, kinds)) for row in rows]
+        table = np.array(cells, list(zip(heading, types)))
         table.flags.writeable = False
         return table
 
@@ -86,13 +78,3 @@ def write_files(directory: str | os.PathLike[str], kind: str, files: Mapping[str
         except OSError as error:
             raise OutputError(f"{os.fsdecode(directory)}: cannot be written ({error.strerror})") from None
         output.commit()
-
-
-def _numbers(body: bytes, n_columns: int, file: str) -> npt.NDArray[np.float64]:
-    if not body:
-        return np.empty((0, n_columns))
-    text = body.replace(b",,", b",nan,").replace(b",,", b",nan,").replace(b",\n", b",nan\n").replace(b"\n,", b"\nnan,")
-    values = np.fromstring(text.replace(b"\n", b",").rstrip(b",").decode(), sep=",")
-    if len(values) % n_columns:
-        raise ResultsError(f"{file}: has rows of other than {n_columns} cells; run the case again")
-    return values.reshape(-1, n_columns)

@@ -34,7 +34,7 @@ def read_table(file: str | os.PathLike[str]) -> dict[str, Any]:
 
 def arrays_of(columns: Mapping[str, Sequence[str]]) -> dict[str, Any]:
     """Columns of cells as arrays of numbers, NaN in empty cells, or of texts."""
-    return {name: _numbers(np.array(cells)) for name, cells in columns.items()}
+    return {name: _numbers(np.array(cells, dtype=str)) for name, cells in columns.items()}
 
 
 def _numbers(cells: Any) -> Any:

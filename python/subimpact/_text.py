@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 
 #: Bytes of a case or a plan.
 MOST_BYTES = 1_000_000
@@ -26,6 +27,14 @@ def _escaped(character: re.Match[str]) -> str:
 def one_line(text: str) -> str:
     """The text without any control character: spaces for line breaks and tabs."""
     return printable(re.sub(r"[\n\r\t]", " ", text))
+
+
+def say(text: str) -> None:
+    """A message on stderr, which may be gone with its terminal."""
+    try:
+        print(printable(text), file=sys.stderr)
+    except OSError:
+        pass
 
 
 def is_unicode(text: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -33,10 +34,7 @@ def text_of(value: Any) -> str:
 
 def quoted(text: str) -> str:
     """A text as a basic string of TOML."""
-    escapes = {'"': '\\"', "\\": "\\\\"}
-    return '"' + "".join(
-        escapes.get(c) or (f"\\u{ord(c):04x}" if ord(c) < 32 or ord(c) == 127 else c) for c in text
-    ) + '"'
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def dotted(key: str) -> str:

@@ -163,12 +163,7 @@ class Case:
 
     def __delitem__(self, key: str) -> None:
         """As if the key had never been given: its default counts."""
-        if key not in _KEYS:
-            raise CaseError(f'unknown key "{key}"; subimpact.keys() lists those there are', key)
-        if _KEYS[key].type == "text":
-            self._settings[key] = ""
-        else:
-            self._settings[key] = None
+        self._settings[key] = "" if key_of(key).type == "text" else None
         self._loaded = None
 
     def __contains__(self, key: object) -> bool:

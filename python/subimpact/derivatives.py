@@ -70,14 +70,12 @@ class Sensitivity:
         name with the unit), "sub_impact" (from 1), "value", for each key "d_<key>", the derivative
         by its logarithm, and "error_<key>", the error of that, both in the unit of the quantity;
         "flag": why they are not reliable, in words. NaN: a contact merges, splits or vanishes."""
-        rows = [(i, q) for i, values in enumerate(self.values) for q in range(len(QUANTITIES)) if np.isfinite(values[q])]
-        flags = [self.flags[i][q] for i, q in rows]
-        columns = [name for key in self.keys for name in (f"d_{key}", f"error_{key}")]
-        table = np.empty(len(rows), [("quantity", "U24"), ("sub_impact", "i8"), ("value", "f8"), *((name, "f8") for name in columns),
-                                     ("flag", f"U{max([16, *map(len, flags)])}")])
-        for row, (i, q) in enumerate(rows):
-            pairs = np.stack([self.derivatives[i, q], self.errors[i, q]], axis=1).ravel()
-            table[row] = (QUANTITIES[q], i + 1, self.values[i, q], *pairs, flags[row])
+        pairs = np.stack([self.derivatives, self.errors], axis=-1).reshape(*self.values.shape, -1)
+        rows = [(QUANTITIES[q], i + 1, value, *pairs[i, q], self.flags[i][q])
+                for (i, q), value in np.ndenumerate(self.values) if np.isfinite(value)]
+        columns = [(name, "f8") for key in self.keys for name in (f"d_{key}", f"error_{key}")]
+        table = np.array(rows, [("quantity", "U24"), ("sub_impact", "i8"), ("value", "f8"), *columns,
+                                ("flag", f"U{max([16, *(len(row[-1]) for row in rows)])}")])
         table.flags.writeable = False
         return table
 
@@ -138,18 +136,12 @@ def values_of(sub_impacts: Table) -> Numbers:
     return values
 
 
-def times_of(sub_impacts: Table) -> list[tuple[float, float]]:
-    return list(zip(sub_impacts["start_s"].tolist(), np.nan_to_num(sub_impacts["end_s"], nan=np.inf).tolist()))
-
-
 def counterparts(base: Table, other: Table) -> tuple[Numbers, npt.NDArray[np.bool_]]:
     """The numbers of another run's sub-impacts that correspond to those of a base run, NaN where contacts have merged,
     split or vanished; and whether the other run has a new contact before each."""
-    of, follows = _core.counterparts(times_of(base), times_of(other))
-    values = np.full((len(base), len(QUANTITIES)), np.nan)
-    there = np.array([number is not None for number in of], dtype=bool)
-    values[there] = values_of(other)[[number for number in of if number is not None]]
-    return values, np.array(follows, dtype=bool)
+    of, follows = _core.counterparts(base, other)
+    values = np.vstack([values_of(other), np.full(len(QUANTITIES), np.nan)])
+    return values[[-1 if number is None else number for number in of]], np.array(follows)
 
 
 def shifted(case: Case, key: str, shift: float) -> Case:
@@ -270,7 +262,7 @@ def _flag_later_contacts(study: Sensitivity, runs: list[Table]) -> None:
     """Flags the last sub-impact where a shifted run has one more."""
     base = study.base.sub_impacts
     for number, run in enumerate(runs):
-        pairs = _core.matched(times_of(base), times_of(run))
+        pairs = _core.matched(base, run)
         if pairs and pairs[-1][0] is None and study.flags:
             words = f"a contact appears after it within the shifts of {study.keys[number // _RUNS_PER_KEY]}"
             study.flags[-1] = [flag or words for flag in study.flags[-1]]

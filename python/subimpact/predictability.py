@@ -206,7 +206,8 @@ class Scatter:
 
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes scatter.csv, the table, and scatter.json. Raises OutputError."""
-        write_table(directory, "scatter", self.table, scatter=json.dumps(_without_nan(self.summary()), indent=1) + "\n")
+        summary = json.loads(json.dumps(self.summary()), parse_constant=lambda _: None)  # null where a number is not known
+        write_table(directory, "scatter", self.table, scatter=json.dumps(summary, indent=1) + "\n")
 
     def __repr__(self) -> str:
         return f"<Scatter of {self.base!r}: {self.n_predictable} predictable>"
@@ -236,14 +237,6 @@ def _time(time: float | None, deviation: float) -> str:
     return " +- ".join(rounded) if rounded else f"{1e6 * time:.0f} ?"
 
 
-def _without_nan(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _without_nan(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_without_nan(item) for item in value]
-    return None if isinstance(value, float) and value != value else value
-
-
 def scatter(
     case: Case,
     *,
@@ -264,13 +257,12 @@ def scatter(
     check_jobs(jobs)
     check_progress(progress)
     case = as_case(case)
-    with_derivatives = set(_core.shifted_keys(case._load()))
-    deviations = {key: case[f"scatter.{key}"] for key in with_derivatives if case[f"scatter.{key}"]}
-    if not deviations:
+    deviations = {key: case[f"scatter.{key}"] for key in _core.shifted_keys(case._load()) if case[f"scatter.{key}"]}
+    keys = list(deviations)
+    if not keys:
         raise CaseError('nothing scatters; give relative standard deviations in [scatter] of the case, such as "striker.velocity" '
                         "= 0.01", "scatter")
     chosen = Case.from_text(_core.as_chosen(case._load(), jobs))
-    keys = [key for key in _core.shifted_keys(case._load()) if key in deviations]
     runs = Runs(jobs, progress, 2 + 4 * len(keys) + 1 + N_SAMPLES)
     for_derivatives = Case.from_text(_core.for_derivatives(chosen._load()))
     affordable = Case.from_text(_core.affordable(for_derivatives._load(), 2 + 4 * len(keys)))
@@ -283,8 +275,7 @@ def scatter(
         raise CaseError(f"the scatter of event times is not known: {found.study.remarks[-1]}", "scatter")
     base = Case.from_text(_core.affordable(chosen._load(), N_SAMPLES))
     base["output.shapes"] = base["time.end"]  # of which the permanent set is known
-    if base["accuracy.event_times"] is not None:
-        del base["accuracy.event_times"]
+    del base["accuracy.event_times"]
     plan = Plan(base, samples=N_SAMPLES, distribution=distribution)
     nominal, *made = runs.of([lambda: plan.base, *(partial(plan.case_of, number) for number in range(N_SAMPLES))])
     if runs.interrupted:

@@ -45,7 +45,7 @@ def exhaust():
 def test_a_case_that_kills_its_worker_is_a_row(population, tmp_path, monkeypatch, what, outcome):
     si.sweep(population, out=tmp_path / "sound", workers=2)
     poisoned(monkeypatch, what)
-    monkeypatch.setattr(worker._Guard, "__init__", quick_guard)
+    monkeypatch.setattr(worker, "_patience", lambda timeout: 1.0)
     si.sweep(population, out=tmp_path / "poisoned", workers=2)
     expected = outcomes(tmp_path / "sound")
     expected[POISON] = outcome
@@ -57,13 +57,8 @@ def test_a_case_that_kills_its_worker_is_a_row(population, tmp_path, monkeypatch
     assert tables(tmp_path / "poisoned") == tables(tmp_path / "sound")
 
 
-def quick_guard(self, timeout):
-    self._seconds = 1.0
-
-
 def test_a_case_that_exhausts_the_memory_is_a_row(population, tmp_path, monkeypatch):
     run = worker._core.run
-
 
     def exhausting(case, *arguments):
         if case.value("striker.mass") == 0.4 and case.value("striker.velocity") == 16.0:

@@ -102,11 +102,14 @@ def test_the_program_plots_and_reports_several_runs(runs, tmp_path, program):
 
 
 def test_sub_impacts_correspond_that_overlap_each_other_most():
-    a = [(0, 1), (2, 3), (4, math.inf)]
+    def hits(*times):
+        return np.array([*times], [("start_s", "f8"), ("end_s", "f8")])
+
+    a = hits((0, 1), (2, 3), (4, math.nan))
     assert matched(a, a) == [(0, 0), (1, 1), (2, 2)] and n_leading(matched(a, a)) == 3
-    assert matched(a, [(0, 1.1), (1.5, 1.6), (2, 3.1)]) == [(0, 0), (None, 1), (1, 2), (2, None)]
-    assert matched(a, [(0, 3)]) == [(0, 0), (1, None), (2, None)]  # merged
-    assert n_leading(matched(a, a[1:])) == 0 and matched([], a[:1]) == [(None, 0)]
+    assert matched(a, hits((0, 1.1), (1.5, 1.6), (2, 3.1))) == [(0, 0), (None, 1), (1, 2), (2, None)]
+    assert matched(a, hits((0, 3))) == [(0, 0), (1, None), (2, None)]  # merged
+    assert n_leading(matched(a, a[1:])) == 0 and matched(hits(), a[:1]) == [(None, 0)]
 
 
 def test_a_result_in_files_is_the_one_that_was_written(elastic, tmp_path):

@@ -16,7 +16,6 @@ import pytest
 
 import subimpact as si
 from conftest import ELASTIC, tables
-from subimpact.sweep.plan import spaced
 from subimpact.sweep.store import Store
 
 PLAN = """
@@ -235,12 +234,6 @@ def test_a_sweep_of_which_most_cases_are_refused_says_why_and_fails(plan_file):
     with open(plan_file.parent / "out" / "runs.csv") as file:
         first = next(csv.DictReader(file))
     assert first["message"] in done.stderr and "," in first["message"]
-
-
-def test_a_range_of_a_plan_is_that_of_numpy_to_the_last_digit():
-    for first, last, n in ((2, 16, 50), (0.001, 0.0037, 4000), (-3, 7.1, 777)):
-        assert spaced(first, last, n) == np.linspace(first, last, n).tolist()
-    assert spaced(0.05, 0.4, 1000, "log") == np.geomspace(0.05, 0.4, 1000).tolist()
 
 
 def test_the_command_parts_and_merges(plan_file, tmp_path):

@@ -13,9 +13,9 @@ from pathlib import Path
 import matplotlib
 
 from .. import _core
-from .._command import Parser, say
+from .._command import Parser
 from .._errors import OutputError, ResultsError
-from .._text import path_text, printable
+from .._text import path_text, printable, say
 from ..plot.directory import identity_of, save
 from ..result import read_results
 from . import Alignment, align, read

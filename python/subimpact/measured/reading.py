@@ -28,9 +28,8 @@ _INCREMENTS = ("increment", "deltax", "deltat", "dt", "tinc", "xinc", "sampleint
                "sampleperiod", "samplingperiod", "timestep", "hresolution", "interval", "abtastintervall")
 _RATES = ("samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "fs", "abtastrate", "abtastfrequenz")
 _STARTS = ("start", "starttime", "x0", "t0", "hoffset", "xzero", "firstsample")
+_COLUMNS = "columns=T,F, the numbers of that of the time and that of the force"
 _MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237, "lbm": 0.45359237, "oz": 0.028349523125, "slug": 14.593902937}
-
-
 _GAINS = ("gain", "amplifiergain", "amplification")
 
 
@@ -137,6 +136,10 @@ class _Reading:
         self.force_unit = self._unit(self.force, units[-1] if units else None, "force")
         self.quantity = "strain" if self.force_unit and self.force_unit.kind == "strain" else "force"
 
+    def fail(self, words: str) -> NoReturn:
+        """Refuses the file, at its heading."""
+        self.table.fail(self.table.heading, words)
+
     def _given_unit(self, text: Column) -> Unit:
         if (unit := unit_of(str(text))) is None:
             raise ResultsError(f"units has {text!r}; allowed: those of time and force, such as units=us,kN, volts, m/s^2 and g too")
@@ -156,16 +159,14 @@ class _Reading:
                 return options.index(column.casefold())
         if isinstance(column, int) and 1 <= column <= self.table.width:
             return column - 1
-        self.table.fail(self.table.heading or None, f"has no column {column!r}; allowed: {self._all(range(self.table.width))}, by "
-                        "number or by name")
+        self.fail(f"has no column {column!r}; allowed: {self._all(range(self.table.width))}, by number or by name")
 
     def _choose(self, kinds: set[str], stated: dict[int, Unit | None], name: re.Pattern[str], what: str) -> int | None:
         """The column in such a unit; of several the one that is named so."""
         found = [j for j in self.table.columns if (unit := stated[j]) is not None and unit.kind in kinds]
         named = [j for j in found if name.match(self.table.names[j])]
         if len(found) > 1 and len(named) != 1:
-            self.table.fail(self.table.heading, f"has several columns of {what}: {self._all(found)}; give columns=T,F, the "
-                            "numbers of that of the time and that of the force")
+            self.fail(f"has several columns of {what}: {self._all(found)}; give {_COLUMNS}")
         return named[0] if named else found[0] if found else None
 
     def _find_force(self, stated: dict[int, Unit | None], units: list[Column]) -> int:
@@ -181,7 +182,7 @@ class _Reading:
         others = others[1:] if len(others) == 2 and self.time is None and not table.names[others[0]] else others
         if len(others) != 1:
             table.fail(table.heading or table.first + 1, f"names no column of forces among {self._all(others or table.columns)}; give "
-                       "columns=T,F, the numbers of that of the time and that of the force, and units=us,N if no unit is stated")
+                       f"{_COLUMNS}, and units=us,N if no unit is stated")
         return others[0]
 
     def _is_index(self, j: int) -> bool:
@@ -221,8 +222,7 @@ class _Reading:
             if own and own != unit:
                 self.overruled.append(f"{unit.symbol} as given, where the file says {own.symbol} in {self._label(column)}")
             if what == "time" and unit.kind != "time":
-                self.table.fail(self.table.heading or None, f"{self._label(column)} is in {unit.symbol}, no unit of time; give "
-                                "columns=T,F, the numbers of that of the time and that of the force, and units=us,N in this order")
+                self.fail(f"{self._label(column)} is in {unit.symbol}, no unit of time; give {_COLUMNS}, and units=us,N in this order")
             return unit
         if unit := self._unit_of_metadata(column, what):
             return unit
@@ -231,8 +231,8 @@ class _Reading:
         if what == "force" and self.table.maker == "LECROY" and self.is_electrical:
             return unit_of("V")
         said = f"states {self.table.conflicts[column]} as unit of {what}" if column in self.table.conflicts else f"states no unit of {what}"
-        self.table.fail(self.table.heading or None, f"{said}, in {self._label(column)}; give units=us,N, those of "
-                        "time and force, or write them into the heading: time_us,force_N")
+        self.fail(f"{said}, in {self._label(column)}; give units=us,N, those of time and force, or write them into the heading: "
+                  "time_us,force_N")
 
     def _unit_of_metadata(self, column: int, what: str) -> Unit | None:
         keys = (("horizontalunits", "hunit", "xunit", "xunitlabel", "timeunit") if what == "time" else
@@ -251,9 +251,8 @@ class _Reading:
         if parts := quantity(self._metadata(("decimation", "decimationfactor", "downsampling")) or ""):
             step = step if parts[0] == 1.0 else None
         if step is None or not step > 0.0:
-            self.table.fail(self.table.heading or None, "has no column of times and states no interval between samples with its "
-                            "unit, or a decimation; give interval=1us, or columns=T,F, the numbers of that of the time and that "
-                            "of the force")
+            self.fail("has no column of times and states no interval between samples with its unit, or a decimation; give "
+                      f"interval=1us, or {_COLUMNS}")
         start = self._seconds(_STARTS) or 0.0
         return start + step * np.arange(n), f"samples {1e6 * step:.6g} us apart from {1e6 * start:.6g} us on, by the metadata"
 
@@ -270,8 +269,8 @@ class _Reading:
             return
         apart = (float(np.median(np.abs(np.diff(known)))), float(np.ptp(known)) / (len(known) - 1))  # few digits; gaps
         if apart[0] and not 1 / 30 < apart[0] / step < 30:  # parts of a record are exported; units differ by more
-            self.table.fail(self.table.heading or None, f"has times {apart[0]:.3g} s apart and states {step:.3g} s between samples; "
-                            "give units=us,N, if the times have another unit, or interval=1us")
+            self.fail(f"has times {apart[0]:.3g} s apart and states {step:.3g} s between samples; give units=us,N, if the times have "
+                      "another unit, or interval=1us")
         if min(abs(each / step - 1.0) for each in apart) > 0.02:
             self.overruled.append(f"times {1e6 * apart[0]:.6g} us apart as in their column, where the file states {1e6 * step:.6g} us")
 
@@ -279,15 +278,15 @@ class _Reading:
         """Refuses a factor of the numbers in the metadata, of which instruments are not of one mind."""
         parts = quantity(self._metadata(("ymult", "ymultiplier", "yfactor", "scalefactor", "multiplier"), self.force) or "")
         if parts and parts[0] != 1.0:
-            self.table.fail(self.table.heading or None, f"states a factor of {parts[0]:g}; give scale={parts[0]:g} if its numbers "
-                            "are to be multiplied by it, or scale=1 if they are not")
+            self.fail(f"states a factor of {parts[0]:g}; give scale={parts[0]:g} if its numbers are to be multiplied by it, or scale=1 "
+                      "if they are not")
         if self.force_unit is None or self.force_unit.kind not in ("voltage", "charge"):
             return
         for gain in self._each(_GAINS):
             parts = quantity(gain.lstrip("xX×* "))
             if parts and parts[0] != (0.0 if parts[1].lower() == "db" else 1.0) and not sensitivity_of(gain):
-                self.table.fail(self.table.heading or None, f"states a gain of {gain}; give scale=, one over the gain if its numbers "
-                                "are to be divided by it, or scale=1 if they are not")
+                self.fail(f"states a gain of {gain}; give scale=, one over the gain if its numbers are to be divided by it, or scale=1 "
+                          "if they are not")
 
     def _seconds(self, keys: tuple[str, ...]) -> float | None:
         parts = quantity(text) if (text := self._metadata(keys)) else None
@@ -301,12 +300,11 @@ class _Reading:
 
     def newtons(self, sensitivity: str | None, mass: float | str | None) -> tuple[float, str]:
         """What the column of the force is multiplied by, and why; a strain by its unit."""
-        table, unit, where = self.table, self.force_unit, self._label(self.force)
+        unit, where = self.force_unit, self._label(self.force)
         assert unit is not None
         factor, kind, words = unit.factor, unit.kind, f"{self.quantity}: {where}, {unit.symbol}"
         if sensitivity is not None and kind not in ("voltage", "charge"):
-            table.fail(table.heading or None, f"sensitivity is given, and {where} is in {unit.symbol}; leave it out, or give "
-                       "units=us,V if that is its unit")
+            self.fail(f"sensitivity is given, and {where} is in {unit.symbol}; leave it out, or give units=us,V if that is its unit")
         if kind in ("voltage", "charge"):
             stated = self._each(("sensitivity", "empfindlichkeit", "calibrationfactor", *_GAINS))
             own = next(filter(sensitivity_of, stated), None)
@@ -316,23 +314,21 @@ class _Reading:
                 self.overruled.append(f"{sensitivity} as given, where the file says {own}")
             if known is None or known.electrical != kind:
                 said = f"sensitivity is {text!r}, and {where}" if sensitivity else where
-                table.fail(table.heading or None, f"{said} is in {unit.symbol}; give sensitivity=\"2.27 mV/N\", what the transducer "
-                           "makes of a newton (or of m/s^2 or g, with a mass)")
+                self.fail(f"{said} is in {unit.symbol}; give sensitivity=\"2.27 mV/N\", what the transducer makes of a newton (or of "
+                          "m/s^2 or g, with a mass)")
             factor, kind, words = factor / known.per, known.mechanical, words + f" at {text}"
         if kind == "acceleration":
             text = str(mass) if mass is not None else self._metadata(("mass", "masse", "strikermass")) or ""
             parts = quantity(text)
             kilograms = parts[0] * _MASSES.get(parts[1] or ("kg" if mass is not None else ""), 0.0) if parts else 0.0
             if not kilograms > 0.0:
-                table.fail(table.heading or None, f"{where} is an acceleration; give mass=\"0.2 kg\", that of the body which it is "
-                           "measured on")
+                self.fail(f"{where} is an acceleration; give mass=\"0.2 kg\", that of the body which it is measured on")
             factor, kind, words = factor * kilograms, "force", words + f" times {kilograms:g} kg"
         elif mass is not None:
-            table.fail(table.heading or None, f"mass is given, and {words.removeprefix(self.quantity + ': ')} is no acceleration; "
-                       "leave it out, or give units=us,g if that is its unit")
+            self.fail(f"mass is given, and {words.removeprefix(self.quantity + ': ')} is no acceleration; leave it out, or give "
+                      "units=us,g if that is its unit")
         if kind != self.quantity:
-            table.fail(table.heading or None, f"{where} is in {unit.symbol}, no unit of force; give columns=T,F, the numbers of "
-                       "that of the time and that of the force, or units=us,N")
+            self.fail(f"{where} is in {unit.symbol}, no unit of force; give {_COLUMNS}, or units=us,N")
         return factor, words
 
 
@@ -452,6 +448,6 @@ def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], for
     if len(times) < 3:
         table.fail(table.first + 1, f"has {len(times)} rows of numbers, and 3 are the least; allowed: the record of a strike")
     if quantity == "force" and sign is None and -forces.min() > max(forces.max(), 0.0):
-        table.fail(table.heading or None, f"the force lies between {forces.min():.4g} and {forces.max():.4g} N, and contact pushes: "
+        table.fail(table.heading, f"the force lies between {forces.min():.4g} and {forces.max():.4g} N, and contact pushes: "
                    "give sign=-1 if the file has compression negative, sign=1 if not")
     return Signal(times, forces * (sign or 1), table.file, (*assumed, *(["sign changed"] if sign == -1 else [])), quantity)

@@ -113,8 +113,8 @@ class Table:
         return ["\t".join(columns), *("\t".join(map(repr, row)) for row in zip(*(each.tolist() for each in columns.values())))]
 
     def fail(self, line: int | None, text: str) -> NoReturn:
-        """Refuses the file, or one of its lines."""
-        raise ResultsError(f"{self.file}{'' if line is None else f':{line}'}: {one_line(text)}")
+        """Refuses the file, or one of its lines, counted from 1."""
+        raise ResultsError(f"{self.file}{f':{line}' if line else ''}: {one_line(text)}")
 
     def _bare(self, line: str) -> str:
         """The line without marks of a comment."""

@@ -9,12 +9,8 @@ from collections.abc import Sequence
 
 from .._errors import ResultsError
 from .._files import Files
-from .._text import printable
+from .._text import say
 from . import markup
-
-
-def _say(text: str) -> None:
-    print(printable(f"subimpact: {text}"), file=sys.stderr)
 
 
 def _page(options: argparse.Namespace) -> tuple[str, str, list[str]]:
@@ -48,16 +44,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with open(os.path.join(options.out, name), "w", encoding="utf-8", errors="replace", newline="\n") as file:
             file.write(text)
     except (ResultsError, OSError) as error:
-        _say(str(error))
+        say(f"subimpact: {error}")
         return 2
     except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:  # well-formed files that no run writes
-        _say(f"{', '.join(options.directories)}: holds files that no run of this version has written "
-             f"({type(error).__name__}: {error}); run the case again")
+        say(f"subimpact: {', '.join(options.directories)}: holds files that no run of this version has written "
+            f"({type(error).__name__}: {error}); run the case again")
         return 2
     except KeyboardInterrupt:
         return 130
     for note in notes:
-        _say(note)
+        say(f"subimpact: {note}")
     return 0
 
 

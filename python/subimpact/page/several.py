@@ -21,7 +21,7 @@ from ..plot import Absent, comparison, histograms, sweep_map
 from ..plot.sweeps import CHIEF, error_column
 from .._tables import arrays_of
 from ..plot.directory import Figure, figure_of, letters, svg_of
-from ..result import Result, read_results
+from ..result import read_results
 from ..running import run
 from .markup import escaped, figures, headlines, in_print, paragraphs, table, tiles, whole
 from .run import body_of, counted, errors_of
@@ -142,12 +142,6 @@ def _signed(x: float, decimals: int) -> str:
     return f"{x:+.{decimals}f}".replace("-", "−")
 
 
-def _times(result: Result) -> list[tuple[float, float]]:
-    """Starts and ends of sub-impacts, s; infinity: still in contact."""
-    hits = result.sub_impacts
-    return list(zip(hits["start_s"].tolist(), np.nan_to_num(hits["end_s"], nan=math.inf).tolist()))
-
-
 def n_leading(pairs: Sequence[Pair]) -> int:
     """How many pairs from the first on have both."""
     return next((n for n, pair in enumerate(pairs) if None in pair), len(pairs))
@@ -167,17 +161,17 @@ def _pair_row(pair: Pair, first: Any, second: Any) -> list[str]:
             *(_signed(100 * (b[name] / a[name] - 1), 3) if a[name] else "" for name in ("peak_force_N", "impulse_Ns"))]
 
 
-def _pair_words(pairs: Sequence[Pair], first: Sequence[tuple[float, float]], second: Sequence[tuple[float, float]], letter: str) -> str:
+def _pair_words(pairs: Sequence[Pair], first: Any, second: Any, letter: str) -> str:
     n = n_leading(pairs)
-    largest = max((abs(first[k][0] - second[k][0]) for k in range(n)), default=0.0)
+    largest = np.abs(first["start_s"][:n] - second["start_s"][:n]).max(initial=0.0)
     words = "The first sub-impacts correspond" if n == 1 else f"The first {counted(n, 'sub-impact')} correspond one to one"
     if n:
         words += f"; their starts differ by {1e6 * largest:.2g} us at most"
     if n < len(pairs):
         i, k = pairs[n]
-        start, end = first[i] if i is not None else second[k or 0]
-        words += (f"; from {1e6 * start:.6g} us on they differ: a contact of {1e6 * (end - start):.4g} us is in only one of A and "
-                  f"{letter}")
+        odd = first[i] if i is not None else second[k]
+        length = np.nan_to_num(odd["end_s"], nan=math.inf) - odd["start_s"]
+        words += f"; from {1e6 * odd['start_s']:.6g} us on they differ: a contact of {1e6 * length:.4g} us is in only one of A and {letter}"
     return words + "."
 
 
@@ -205,16 +199,16 @@ def comparison_page(directories: Sequence[str]) -> str:
     results = [read_results(directory) for directory in directories]
     summaries, reports = [result.summary for result in results], [result.report_data for result in results]
     names = letters(len(results))
-    times = [_times(result) for result in results]
+    hits = [result.sub_impacts for result in results]
     heading = ["no. in A", "", "start in A, µs", "starts later, µs", "ends later, µs", "error bars, µs", "peak force, %", "impulse, %"]
     lines, pairs_of = [], []
-    for letter, result, of_run in list(zip(names, results, times))[1:]:
-        pairs = _core.matched(times[0], of_run)
-        words = _pair_words(pairs, times[0], of_run, letter)
+    for letter, of_run in list(zip(names, hits))[1:]:
+        pairs = _core.matched(hits[0], of_run)
+        words = _pair_words(pairs, hits[0], of_run, letter)
         lines.append((n_leading(pairs) == len(pairs), f"{letter} compared with A:", words))
         heading[1] = f"no. in {letter}"
         pairs_of.append(f"<h2>Sub-impacts of {letter} compared with those of A</h2>\n<p>{in_print(words)}</p>\n"
-                        + table(heading, [_pair_row(pair, results[0].sub_impacts, result.sub_impacts) for pair in pairs]))
+                        + table(heading, [_pair_row(pair, hits[0], of_run) for pair in pairs]))
     lines += [(False, "Not certain:", f"{letter}: {report['caveat']}.") for letter, report in zip(names, reports) if report["caveat"]]
     different = _differing(summaries)
     runs = table(["", *(f"{letter}: {os.fspath(directory)}" for letter, directory in zip(names, directories))], _answers(reports, summaries))

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 
 import matplotlib
 
-from .._command import Parser, say
+from .._command import Parser
 from .._errors import OutputError, ResultsError
-from .._text import printable
+from .._text import printable, say
 from .directory import FORMATS, draw_directory
 
 

@@ -9,9 +9,9 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-from .._command import Display, Parser, say
+from .._command import Display, Parser
 from .._errors import CaseError, PlanError, StoreError
-from .._text import printable
+from .._text import printable, say
 from .plan import Plan
 from .running import sweep
 

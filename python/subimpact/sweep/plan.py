@@ -362,10 +362,5 @@ def _range(key: str, values: Mapping[str, Any]) -> list[float]:
         raise PlanError(f"{key} is {dict(values)}; allowed: {allowed}")
     if n > MOST_VALUES:
         raise PlanError(f"{key} has n = {n}; allowed: up to {MOST_VALUES} values; {_SPLIT}")
-    return spaced(first, last, n, spacing)
-
-
-def spaced(first: float, last: float, n: int, spacing: str = "linear") -> list[float]:
-    """n values from `first` to `last`, both included, at equal distances or ("log") ratios."""
-    values: list[float] = (np.geomspace(first, last, n) if spacing == "log" else np.linspace(first, last, n)).tolist()
-    return values
+    spaced: Any = np.geomspace if spacing == "log" else np.linspace
+    return [float(value) for value in spaced(first, last, n)]

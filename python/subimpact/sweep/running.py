@@ -124,26 +124,8 @@ def _merge(store: Store, directory: str | os.PathLike[str]) -> None:
     if not os.path.lexists(path / FILE):
         raise StoreError(f"{path}: is no directory of a sweep; allowed: one with {FILE}")
     with Store(path) as other:
-        store.take(other)
-
-
-def _hand_out(
-    plan: Plan,
-    missing: list[int],
-    sink: _Sink,
-    workers: int | None,
-    memory: float | None,
-    executor: Any,
-) -> None:
-    if not missing:
-        return
-    if executor is not None:
-        Coordinator(CallersExecutor(executor), plan, sink).run(missing)
-    elif workers == 0:
-        run_here(plan, missing, sink)
-    else:
-        n = min(workers or n_cores(), len(missing))
-        Coordinator(Processes(n, memory), plan, sink).run(missing)
+        store.add(other.rows())
+        store.notes += other.notes
 
 
 #: GiB, and processes.
@@ -239,7 +221,12 @@ def sweep(
             missing = _missing(numbers, identities, store.outcomes)
         sink = _Sink(plan, store, identities, len(numbers) - len(missing), len(numbers), progress)
         try:
-            _hand_out(plan, missing, sink, workers, memory, executor)
+            if workers == 0 and executor is None:
+                run_here(plan, missing, sink)
+            elif missing:
+                n = min(workers or n_cores(), len(missing))
+                engine: Processes | CallersExecutor = Processes(n, memory) if executor is None else CallersExecutor(executor)
+                Coordinator(engine, plan, sink).run(missing)
         finally:
             interruption.hold()
             sink.flush()

@@ -38,8 +38,8 @@ def _row(line: bytes) -> Row | None:
 
 class Store:
     """The rows of a sweep by identity, in a directory of their own, which no other process writes
-    into meanwhile. The tables of the sweep are written into `staging` and put in place, as one, by
-    `commit`; the store itself is not among the files that manifest.json lists."""
+    into meanwhile. The tables of the sweep are written into `output.staging` and put in place, as one, by
+    `output.commit`; the store itself is not among the files that manifest.json lists."""
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         """Opens or makes the store. Raises StoreError if another process has it, if the file is no
@@ -52,7 +52,7 @@ class Store:
         self._starts: dict[str, int] = {}  # of lines, by identity
         self._end = 0  # of the last whole line
         try:
-            self._output = _core.OutputDirectory(str(self.directory), KIND, SECONDS_OF_THE_DYING)
+            self.output = _core.OutputDirectory(str(self.directory), KIND, SECONDS_OF_THE_DYING)
         except OutputError as error:
             raise StoreError(str(error)) from None
         try:
@@ -63,16 +63,6 @@ class Store:
         except BaseException:
             self.close()
             raise
-
-    @property
-    def staging(self) -> Path:
-        """The hidden directory for new files."""
-        return Path(self._output.staging)
-
-    def commit(self) -> None:
-        """Puts the files of `staging` in place, and removes those of the sweep before. Raises
-        OutputError."""
-        self._output.commit()
 
     def _read(self) -> None:
         if not os.path.lexists(self.path):
@@ -138,11 +128,6 @@ class Store:
         for row, line in lines.items():
             self._keep(row, len(line))
 
-    def take(self, other: Store) -> None:
-        """Stores all rows of another store. Raises OutputError."""
-        self.add(other.rows())
-        self.notes += other.notes
-
     def rows_of(self, identities: Sequence[str]) -> Iterator[Row | None]:
         """The rows with these identities, in their order; None for those there are not."""
         with open(self.path, "rb") as file:
@@ -164,7 +149,7 @@ class Store:
 
     def close(self) -> None:
         """Another process may open the store then."""
-        self._output.close()
+        self.output.close()
 
     def __enter__(self) -> Store:
         return self

@@ -6,15 +6,16 @@ import csv
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
-from typing import IO, Any
+from typing import IO
 
 from .. import _core
 from .._errors import OutputError, ResultsError, StoreError
 from .._files import Files
+from .._tables import arrays_of
 from .._text import one_line
 from .plan import Plan
 from .store import KIND, SECONDS_OF_THE_DYING, Store
-from .worker import COLUMNS, cell, events_heading
+from .worker import COLUMNS, cell
 
 RUNS = "runs.csv"
 SUB_IMPACTS = "sub_impacts.csv"
@@ -27,18 +28,18 @@ def write_tables(plan: Plan, identities: Mapping[int, str], store: Store) -> Cou
     identities of the plan's cases, and base.toml, the case that its keys change; returns how many
     rows have each outcome, and notes why the first of each other than "completed" has it. Raises OutputError."""
     try:
-        with _new(store.staging / RUNS) as runs, _new(store.staging / SUB_IMPACTS) as sub_impacts:
+        with _new(store.output, RUNS) as runs, _new(store.output, SUB_IMPACTS) as sub_impacts:
             outcomes = _write_rows(plan, identities, store, runs, sub_impacts)
-        with _new(store.staging / CASE) as base:
+        with _new(store.output, CASE) as base:
             base.write(plan.base.to_toml())
     except OSError as error:
         raise _not_written(store.directory, error) from None
-    store.commit()
+    store.output.commit()
     return outcomes
 
 
-def _new(path: Path) -> IO[str]:
-    return open(path, "x", encoding="utf-8", newline="\n")
+def _new(output: _core.OutputDirectory, name: str) -> IO[str]:
+    return open(Path(output.staging, name), "x", encoding="utf-8", newline="\n")
 
 
 def _not_written(directory: Path, error: Exception) -> OutputError:
@@ -56,7 +57,7 @@ def _write_rows(
     outcomes: Counter[str] = Counter()
     reasons: dict[str, str] = {}
     runs.write(",".join(["run", *keys, *COLUMNS, "message"]) + "\n")
-    sub_impacts.write("run," + events_heading() + "\n")
+    sub_impacts.write(",".join(["run", *_core.event_columns()]) + "\n")
     numbers = sorted(identities)
     rows = store.rows_of([identities[number] for number in numbers])
     for number, row in zip(numbers, rows):
@@ -90,25 +91,17 @@ def write_hdf5(directory: Path) -> Path:
             raise StoreError(f"{directory}: another sweep has written its tables here meanwhile; write those")
         try:
             with h5py.File(Path(output.staging) / HDF5, "x") as file:
-                for name, rows in tables.items():
-                    _copy(rows, file.create_group(name.removesuffix(".csv")))
+                for name, (heading, *rows) in tables.items():
+                    group = file.create_group(name.removesuffix(".csv"))
+                    for label, column in arrays_of({each: [row[k] for row in rows] for k, each in enumerate(heading)}).items():
+                        is_text = column.dtype.kind == "U"
+                        group.create_dataset(label, data=column.tolist(), dtype=h5py.string_dtype() if is_text else float)
         except (OSError, RuntimeError) as error:
             raise _not_written(directory, error) from None
         output.commit()
     finally:
         output.close()
     return directory / HDF5
-
-
-def _copy(rows: list[list[str]], group: Any) -> None:
-    import h5py
-
-    for column, label in enumerate(rows[0]):
-        cells = [row[column] for row in rows[1:]]
-        try:
-            group[label] = [float(text or "nan") for text in cells]
-        except ValueError:
-            group.create_dataset(label, data=cells, dtype=h5py.string_dtype())
 
 
 def _tables(directory: Path) -> tuple[str, dict[str, list[list[str]]]]:

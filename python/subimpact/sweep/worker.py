@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import signal
 import threading
 import time
@@ -41,11 +40,6 @@ def cell(value: object) -> str:
         return ";".join(cell(item) for item in value)
     text = one_line(str(value))
     return '"' + text.replace('"', '""') + '"' if "," in text or '"' in text else text
-
-
-def events_heading() -> str:
-    """The heading of events.csv."""
-    return ",".join(_core.event_columns())
 
 
 def row_without_result(identity: str, outcome: str, message: str) -> Row:
@@ -91,27 +85,19 @@ def row_of(identity: str, result: _core.Finished) -> Row:
 
 def run_chunk(plan: Plan, numbers: Sequence[int]) -> tuple[list[Row], float]:
     """Runs cases one after another; returns their rows and the seconds that they took."""
-    start = time.perf_counter()
+    start, patience = time.perf_counter(), _patience(plan.timeout)
     rows = []
-    for number in numbers:
-        with _Guard(plan.timeout):
+    try:
+        for number in numbers:
+            if patience:  # a case may go on long after its time, without looking at its clock
+                signal.setitimer(signal.ITIMER_REAL, patience)
             rows.append(run_case(plan, number))
+    finally:
+        if patience:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
     return rows, time.perf_counter() - start
 
 
-class _Guard:
-    """Ends the process if a case goes on long after its time, without looking at its clock.
-
-    Only in the main thread of a process, which then runs nothing else."""
-
-    def __init__(self, timeout: float | None) -> None:
-        is_main = threading.current_thread() is threading.main_thread()
-        self._seconds = 2 * timeout + 5 if timeout and is_main and timeout < math.inf else 0.0
-
-    def __enter__(self) -> None:
-        if self._seconds:
-            signal.setitimer(signal.ITIMER_REAL, self._seconds)
-
-    def __exit__(self, *_: object) -> None:
-        if self._seconds:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
+def _patience(timeout: float | None) -> float:
+    """Seconds after which a case ends its process; 0: never. Only in a main thread, which then runs nothing else."""
+    return 2 * timeout + 5 if timeout and threading.current_thread() is threading.main_thread() else 0.0
