@@ -191,7 +191,7 @@ class ReportPage(PageTestCase):
         for theme in ("light", "dark"):
             self.js("document.getElementById('theme').click()")
             self.frame()
-            self.assertEqual(self.js("return document.documentElement.dataset.theme"), theme)
+            self.assertEqual(self.find("#theme").text, f"Colours: {theme}")
             for text in ("text", "soft"):
                 self.assertGreaterEqual(self.js(CONTRAST, text, "paper"), 4.5, f"{text} in {theme}")
             for line in ("line1", "line2", "line3", "line4", "line5", "line6", "beam" if theme == "dark" else "plastic"):
@@ -210,7 +210,8 @@ class ReportPage(PageTestCase):
             for theme in ("light", "dark"):
                 self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
                     "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
-                self.js("scrollTo(0, 0); page.showAll(); document.documentElement.dataset.theme = arguments[0]", theme)
+                self.js("scrollTo(0, 0); page.showAll(); byId('dark').media = arguments[0]",
+                        "screen" if theme == "dark" else "not all")
                 self.frame()
                 self.assertTrue(self.js(inside, ["shape", "chart-force"], 0), f"{width}, {theme}")
                 answers = self.js("return [...document.querySelectorAll('.tiles.first b')].map((e) =>"

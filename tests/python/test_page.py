@@ -42,9 +42,6 @@ def data_of(text):
 
 def unpacked(column):
     """As web/data.js does it."""
-    if "i24" in column:
-        three = base64.b64decode(column["i24"])
-        return np.array([int.from_bytes(three[k:k + 3], "little", signed=True) for k in range(0, len(three), 3)]) * column["step"]
     kind = next(iter(column))
     return np.frombuffer(base64.b64decode(column[kind]), "<f8" if kind == "f64" else "<f4")
 
@@ -166,12 +163,6 @@ def test_of_many_fine_shapes_those_at_events_and_the_struck_point_are_kept():
     assert list(unpacked(shapes["times"])).count(317e-6) == 1
     assert n < 410 and len(points) < 610 and 900 in points and points[-1] == 3000
     assert len(json.dumps(shapes)) < 3e6 and shapes["plastic_points"] == []
-
-
-def test_whole_numbers_of_24_bits_are_exact_to_a_part_of_the_largest():
-    values = [0.0, 1.0, -1.0, 0.3, -8.5e-7]
-    np.testing.assert_allclose(unpacked(numbers.packed_i24(values)), values, rtol=0, atol=6e-8)
-    assert list(unpacked(numbers.packed_i24([0.0, 0.0]))) == [0.0, 0.0]
 
 
 def test_data_end_no_script():

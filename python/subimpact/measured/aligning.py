@@ -16,9 +16,7 @@ from .units import value_in
 from .words import answers_of
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Numbers = npt.NDArray[np.float64]
+    from ..result import Numbers
 
 Found = Union[float, Literal["find"], None]
 _LIKE_EACH_OTHER = 0.9  # correlation of two forces of the same strike
@@ -75,8 +73,7 @@ def covariance_of(jacobian: Numbers, residuals: Numbers) -> Numbers:
     coloured = inverse @ (jacobian.T @ fftconvolve(jacobian, taper[:, None], "same", axes=0)) @ inverse
     with np.errstate(invalid="ignore", divide="ignore"):
         widening = np.sqrt(np.fmax(np.diag(coloured) / np.diag(white), 1.0))
-    widened: Numbers = white * widening[:, None] * widening
-    return widened
+    return white * widening[:, None] * widening
 
 
 def jacobian(model: Callable[[Numbers], Numbers], x: Numbers, steps: Numbers, bounds: Numbers) -> Numbers:
@@ -277,8 +274,7 @@ class _Search:
         def force(free_values: Numbers) -> Numbers:
             values[free] = free_values
             shift, y, gain = values
-            computed: Numbers = gain * self.filtered(None if low_pass is None else float(y)).at(times - unit * shift)
-            return computed
+            return gain * self.filtered(None if low_pass is None else float(y)).at(times - unit * shift)
 
         bounds = np.array([[-np.inf, self.cutoffs[0], -np.inf], [np.inf, self.cutoffs[1], np.inf]])
         found, covariance = solve(force, forces, values[free], np.array([0.5, 1e-3, 0.5])[free], bounds[:, free],

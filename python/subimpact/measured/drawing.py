@@ -10,9 +10,7 @@ from ..page import numbers
 from ..plot.style import COLOURS, GREY, figure, legend_above, unit
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Numbers = npt.NDArray[np.float64]
+    from ..result import Numbers
 
 _MOST_ROWS = 22_000  # of a chart of the page
 _MOST_DRAWN = 600  # samples of a line

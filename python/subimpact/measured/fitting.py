@@ -19,9 +19,7 @@ from .reading import Signal
 from .words import rounded
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Numbers = npt.NDArray[np.float64]
+    from ..result import Numbers
 
 #: Where what the fit changes begins: the first step of the solver is about as large.
 _BEGIN = 0.1

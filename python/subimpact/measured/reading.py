@@ -17,7 +17,7 @@ from .tables import Table
 from .units import Sensitivity, Unit, quantity, sensitivity_of, unit_of, value_in
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
+    from ..result import Numbers
 
 Column = Union[int, str]
 _MOST_BYTES = 4_000_000_000
@@ -46,8 +46,8 @@ class Signal:
     Raises ResultsError for anything else.
     """
 
-    times: npt.NDArray[np.float64]
-    forces: npt.NDArray[np.float64]
+    times: Numbers
+    forces: Numbers
     source: str = "signal"
     assumed: tuple[str, ...] = ()
     quantity: str = "force"
@@ -240,7 +240,7 @@ class _Reading:
         text = self._metadata(keys, column if what == "force" else None)
         return unit_of(text) if text else None
 
-    def times(self, n: int, interval: str | float | None) -> tuple[npt.NDArray[np.float64], str]:
+    def times(self, n: int, interval: str | float | None) -> tuple[Numbers, str]:
         """Times by start and increment, and how they are known."""
         if interval is not None:
             step = value_in("time", interval) if isinstance(interval, str) else interval
@@ -262,7 +262,7 @@ class _Reading:
         hertz = value_in("frequency", self._metadata(_RATES) or "") if step is None else None
         return 1.0 / hertz if hertz else step
 
-    def check_interval(self, times: npt.NDArray[np.float64]) -> None:
+    def check_interval(self, times: Numbers) -> None:
         """Says where times and metadata differ, and refuses times that can only have another unit."""
         step, known = self.stated_interval(), times[np.isfinite(times)]
         if not step or len(known) < 2:
@@ -414,7 +414,7 @@ def _content(path: Any) -> tuple[str, bytes]:
                            "file of an instrument") from None
 
 
-def _resolved(table: Table, column: int, times: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], list[str]]:
+def _resolved(table: Table, column: int, times: Numbers) -> tuple[Numbers, list[str]]:
     """Times with all their digits: counted from the first one where a float cannot hold them, such as those since 1970."""
     known = times[np.isfinite(times)]
     if len(known) < 2 or np.spacing(np.abs(known).max()) < 1e-5 * (np.ptp(known) / len(known)):
@@ -423,7 +423,7 @@ def _resolved(table: Table, column: int, times: npt.NDArray[np.float64]) -> tupl
     return exact, [f"times counted from the first, {known[0]:.10g}"]
 
 
-def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], forces: npt.NDArray[np.float64],
+def _signal(table: Table, wanted: list[int], times: Numbers, forces: Numbers,
             assumed: list[str], sign: int | None, quantity: str) -> Signal:
     """What was read without the gaps, of the right sign."""
     kept = np.flatnonzero(np.isfinite(times) & np.isfinite(forces))
@@ -435,7 +435,7 @@ def _signal(table: Table, wanted: list[int], times: npt.NDArray[np.float64], for
         times, forces, steps = times[::-1], forces[::-1], -steps[::-1]
         assumed.append("rows from the last to the first")
     if (steps < 0.0).any():
-        line = table.line_of(int(kept[int(np.argmax(steps < 0.0)) + 1]), wanted)
+        line = table.line_of(int(kept[int(np.argmax(steps < 0.0)) + 1]))
         n, numbers = line - 1 - table.first, ",".join(str(column + 1) for column in wanted)
         table.fail(line, f"the time is earlier than that of the row above, as where another record begins; give rows={n} for the one "
                    f"above, skip={line - 1} with columns={numbers} and units=us,N for the one from here on (and rows=N for its length), "

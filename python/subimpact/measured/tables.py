@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import codecs
 import csv
-import io
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from decimal import Decimal
+from itertools import islice
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
@@ -18,7 +18,7 @@ from .._text import one_line
 from .units import BRACKETS, Unit, quantity, sensitivity_of, unit_in, unit_of
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
+    from ..result import Numbers
 
 _EMPTY = ("", "nan", "-nan", "inf", "-inf", "+inf", "infinity", "-infinity", "∞", "-∞", "+∞", "n/a", "#n/a", "na",
           "null", "none", "--", "-", "overflow", "over", *(sign + text for sign in ("", "-", "+") for text in
@@ -30,6 +30,7 @@ _NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+|\d{1,3}(?:[.,]\d{3})+(?:[.,]\
 _NUMBERS_ONLY = re.compile(r"[-+\d.,;|\s\"edEnaif∞]*\d[-+\d.,;|\s\"edEnaif∞]*", re.IGNORECASE)
 #: What ordinates of universal files are, where these say no unit: of SI.
 _UNIVERSAL = {0: "", 2: "", 3: "m/m", 9: "N", 12: "m/s^2", 13: "N"}
+_MARKS = [re.compile(rf"\s*(?:[#%!*{more}]+|//+)\s*") for more in ("", ";")]  #: of comments; a semicolon may part cells
 _INDEX = ("sequence", "sample", "samples", "index", "point", "points", "nr", "no", "")
 _BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF32_LE: "utf-32", codecs.BOM_UTF32_BE: "utf-32",
          codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
@@ -118,8 +119,8 @@ class Table:
 
     def _bare(self, line: str) -> str:
         """The line without marks of a comment."""
-        marks = r"\s*(?:[#%!*;]+|//+)\s*" if self.separator != ";" else r"\s*(?:[#%!*]+|//+)\s*"
-        return re.sub(marks, "", line, count=1) if re.match(marks, line) else line
+        marks = _MARKS[self.separator != ";"].match(line)
+        return line[marks.end():] if marks else line
 
     def _read_clock(self) -> None:
         """Puts seconds in place of times of day such as 12:03:04.123456."""
@@ -167,7 +168,6 @@ class Table:
         return plain[0] if plain else "."
 
     def cells(self, line: str) -> list[str]:
-        """The cells of a line, stripped."""
         if self.separator == " ":
             return re.split(r"\s+(?![\[({])", line.strip())
         if '"' in line:
@@ -212,7 +212,6 @@ class Table:
             del self.lines[self.first + rows :]
 
     def _is_units(self, cells: list[str]) -> bool:
-        """Whether this row has the units of the columns."""
         has = [unit_of(cell) is not None for cell in cells]
         return any(has) and all(known or cell.lower() in _INDEX
                                 or re.fullmatch(r"[\[(].*[\])]", cell) is not None
@@ -313,38 +312,22 @@ class Table:
             values = (both,) if unit_of(values[1]) or sensitivity_of(both) else values
         self.metadata.setdefault(re.sub(r"[\[({].*|[^a-z0-9]", "", key.lower()), list(values))
 
-    def numbers(self, wanted: list[int]) -> npt.NDArray[np.float64]:
+    def numbers(self, wanted: list[int]) -> Numbers:
         """The numbers of some columns, a row per row; NaN where there is none."""
-        import pandas
+        lines, *columns = zip(*((line, *(cells[j] if j < len(cells) else "" for j in wanted)) for line, cells in self._rows_of_cells()))
+        return np.column_stack([self._numbers_of(cells, lines, j) for cells, j in zip(columns, wanted)])
 
-        body = self.lines[self.first :]
-        if any("#" in line for line in body):  # comments, but not within numbers
-            body = [re.sub(r"(?:^|(?<=[\s,;]))#(?!n/?a).*", "", line, flags=re.IGNORECASE) for line in body]
-        if self.separator != "," or '"' in body[0] or max(line.count(",") for line in body) < self.width:
+    def _numbers_of(self, cells: Sequence[str], lines: Sequence[int], column: int) -> Numbers:
+        if self.decimal == "." and not any("_" in cell for cell in cells):
             try:
-                frame = pandas.read_csv(
-                    io.StringIO("\n".join(body)), sep=r"\s+" if self.separator == " " else self.separator, header=None,
-                    names=list(range(self.width)), usecols=wanted, decimal=self.decimal, dtype=float, index_col=False,
-                    na_values=[*_EMPTY, *map(str.upper, _EMPTY), "NaN", "Inf"], skipinitialspace=True)
-                read = np.column_stack([frame[j].to_numpy() for j in wanted])
-                if self.separator != " ":
-                    return read
-                filled = [line for line in body if line.strip()]  # of which those without a cell say not which one
-                if len(filled) == len(read):
-                    read[[len(line.split()) < self.width for line in filled]] = np.nan
-                    return read
-            except ValueError:  # a cell that is no number; those of ParserError too
+                return np.array([cell or "nan" for cell in cells], float)
+            except ValueError:  # words in place of numbers, thousands, or a cell that is to be refused
                 pass
-        return np.array([numbers for _, numbers in self._careful_rows(wanted)])
+        return np.array([float(self._number(cell, line, column)) for cell, line in zip(cells, lines)])
 
-    def line_of(self, row: int, wanted: list[int]) -> int:
+    def line_of(self, row: int) -> int:
         """The number of the line of a row of `numbers`."""
-        return next(line for k, (line, _) in enumerate(self._careful_rows(wanted)) if k == row)
-
-    def _careful_rows(self, wanted: list[int]) -> Iterator[tuple[int, list[float]]]:
-        """Rows one by one, with the numbers of their lines."""
-        for line, cells in self._rows_of_cells():
-            yield line, [float(self._number(cells[j] if j < len(cells) else "", line, j)) for j in wanted]
+        return next(islice(self._rows_of_cells(), row, None))[0]
 
     def _rows_of_cells(self) -> Iterator[tuple[int, list[str]]]:
         last = len(self.lines)
@@ -354,13 +337,15 @@ class Table:
             line = self.lines[i]
             if not line.strip() or self._bare(line) is not line:
                 continue
+            if "#" in line:  # a comment, but not within numbers
+                line = re.sub(r"(?<=[\s,;])#(?!n/?a).*", "", line, flags=re.IGNORECASE)
             cells = self.cells(line)
             if len(cells) > self.width and any(cells[self.width :]):
                 self.fail(i + 1, f"has {len(cells)} cells where other rows have {self.width}; give decimal=, or separator=; "
                           "as it is, or rows=N to end before this line")
             yield i + 1, [] if self.separator == " " and len(cells) < self.width else cells
 
-    def from_first(self, column: int) -> npt.NDArray[np.float64]:
+    def from_first(self, column: int) -> Numbers:
         """The numbers of a column less the first one, of which a float has not all digits."""
         def exact(cell: str) -> Decimal:
             return Decimal(self._number(cell, self.first + 1, column))

@@ -48,21 +48,13 @@ def _table() -> dict[str, Unit]:
                            "klbf": 4448.2216152605, "ozf": 0.27801385095378, "kgf": _STANDARD_GRAVITY,
                            "kp": _STANDARD_GRAVITY, "cN": 0.01, "daN": 10.0}.items():
         table[symbol] = Unit("force", factor, symbol)
-    table["min"] = Unit("time", 60.0, "min")
-    for symbol in ("g", "G", "gn"):
-        table[symbol] = Unit("acceleration", _STANDARD_GRAVITY, "g")
-    for symbol in ("m/s2", "m/s/s", "ms-2", "m/sec2"):
-        table[symbol] = Unit("acceleration", 1.0, "m/s^2")
-    for symbol in ("strain", "m/m", "ε"):
-        table[symbol] = Unit("strain", 1.0, "m/m")
-    for symbol in ("um/m", "microstrain", "ustrain", "uε"):
-        table[symbol] = Unit("strain", 1e-6, "um/m")
-    table["mm/m"] = Unit("strain", 1e-3, "mm/m")
+    for symbols, unit in {"min": Unit("time", 60.0, "min"), "g G gn": Unit("acceleration", _STANDARD_GRAVITY, "g"),
+                          "m/s2 m/s/s ms-2 m/sec2": Unit("acceleration", 1.0, "m/s^2"), "strain m/m ε": Unit("strain", 1.0, "m/m"),
+                          "um/m microstrain ustrain uε": Unit("strain", 1e-6, "um/m"), "mm/m": Unit("strain", 1e-3, "mm/m")}.items():
+        table.update(dict.fromkeys(symbols.split(), unit))
     for length, metres in {"mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}.items():
         table[f"{length}/s2"] = table[f"{length}/s/s"] = Unit("acceleration", metres, f"{length}/s^2")
-    for symbol in _OTHERS.split():
-        table[symbol] = Unit("other", 1.0, symbol)
-    return table
+    return {**table, **{symbol: Unit("other", 1.0, symbol) for symbol in _OTHERS.split()}}
 
 
 _UNITS = _table()

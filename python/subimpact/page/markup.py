@@ -110,5 +110,5 @@ def data_element(data: Any) -> str:
 def whole(title: str, body: str, style: str = "", data: str = "", scripts: Iterable[str] = ()) -> str:
     """A page."""
     elements = "".join(f"<script>/*<![CDATA[*/\n{script}\n/*]]>*/</script>\n" for script in scripts)
-    return filled("page.html", {"title": escaped(title), "style": web("report.css") + style, "body": body, "data": data,
-                                "scripts": elements})
+    return filled("page.html", {"title": escaped(title), "style": web("report.css") + style, "dark": web("dark.css"), "body": body,
+                                "data": data, "scripts": elements})

@@ -1,6 +1,6 @@
-"""The numbers that the scripts of a page draw, packed as web/data.js reads them: base64 of little-endian numbers, named by
-their kind (f64, f32: floating-point; i24: signed 24-bit integers, multiples of `step`). Of long histories the rows with the
-extremes of equal spans are kept, of many or fine shapes those at events and every n-th."""
+"""The numbers that the scripts of a page draw, packed as web/data.js reads them: base64 of little-endian floating-point
+numbers, named by their kind (f64, f32). Of long histories the rows with the extremes of equal spans are kept, of many or fine
+shapes those at events and every n-th."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .._files import Files
 # Sizes that keep a page below 5 MB.
 _MOST_HISTORY_ROWS = 22_000
 _MOST_POINTS = 600  # of a shape
-_MOST_SHAPE_ROWS = 240_000  # of all shapes
+_MOST_SHAPE_ROWS = 180_000  # of all shapes
 
 Row = list[str]
 Events = list[dict[str, Any]]
@@ -32,18 +32,6 @@ def packed(kind: str, values: Iterable[float]) -> dict[str, str]:
     if sys.byteorder == "big":
         numbers.byteswap()
     return {kind: base64.b64encode(numbers.tobytes()).decode()}
-
-
-def packed_i24(values: Sequence[float]) -> dict[str, Any]:
-    """In 24 bits each: exact to 6e-8 of the largest."""
-    step = max((abs(x) for x in values), default=0.0) / 8388607.0 or 1.0
-    whole = array("i", [round(x / step) for x in values])
-    if sys.byteorder == "big":
-        whole.byteswap()
-    four, three = whole.tobytes(), bytearray(3 * len(values))
-    for k in range(3):
-        three[k::3] = four[k::4]
-    return {"i24": base64.b64encode(three).decode(), "step": step}
 
 
 def thinned(rows: Iterator[Row], n_rows: int, most: int = _MOST_HISTORY_ROWS) -> Iterator[Row]:
@@ -119,8 +107,8 @@ def shapes(files: Files, n_points: int, n_rows: int, struck_at: float, events: E
     width, plastic = len(points), fields[2]
     at = [i for i in range(width) if any(plastic[i::width])]
     return {"times": packed("f64", times), "positions": packed("f64", [positions[i] for i in points]),
-            "displacement": packed_i24(fields[0]), "moment": packed_i24(fields[1]), "plastic_points": at,
-            "plastic": packed_i24([plastic[k + i] for k in range(0, len(plastic), width) for i in at])}, points, len(times)
+            "displacement": packed("f32", fields[0]), "moment": packed("f32", fields[1]), "plastic_points": at,
+            "plastic": packed("f32", [plastic[k + i] for k in range(0, len(plastic), width) for i in at])}, points, len(times)
 
 
 def envelope(files: Files, points: Sequence[int]) -> dict[str, Any]:

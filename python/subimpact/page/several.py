@@ -18,7 +18,7 @@ from .._files import Files
 from .._toml import flat
 from ..case import Case, keys
 from ..plot import Absent, comparison, histograms, sweep_map
-from ..plot.sweeps import CHIEF, error_column
+from ..plot.sweeps import CHIEF, error_column, known_numbers
 from .._tables import arrays_of
 from ..plot.directory import Figure, figure_of, letters, svg_of
 from ..result import read_results
@@ -66,10 +66,10 @@ def _warnings(columns: Mapping[str, Any], n: int) -> list[tuple[bool, str, str]]
              "whose sentences a run of its own has (the command below); the maps hatch them.")] if kinds else []
 
 
-def _values(column: Any, unit: str) -> str:
-    if column.dtype.kind == "U":
-        return f"{len(set(column.tolist()))} different texts"
-    known = column[np.isfinite(column)]
+def _values(columns: Mapping[str, Any], key: str, unit: str) -> str:
+    if columns[key].dtype.kind == "U":
+        return f"{len(set(columns[key].tolist()))} different texts"
+    known = known_numbers(columns, key)
     return f"{len(np.unique(known))} different, {known.min():.6g} to {known.max():.6g} {unit}" if len(known) else ""
 
 
@@ -77,12 +77,9 @@ def _statistics(columns: Mapping[str, Any]) -> str:
     """Mean, deviation, quantiles and errors of the chief numbers over all runs."""
     rows = []
     for name in CHIEF:
-        values = columns.get(name, np.array([]))
-        values = values[np.isfinite(values)] if values.dtype.kind == "f" else []
+        values, known = known_numbers(columns, name), known_numbers(columns, error_column(columns, name) or "")
         if len(values) < 2 or np.ptp(values) == 0.0:
             continue
-        errors = columns.get(error_column(columns, name) or "", np.array([np.nan]))
-        known = errors[np.isfinite(errors)] if errors.dtype.kind == "f" else []
         deviation = np.std(values, ddof=1)
         rows.append([name, str(len(values)), f"{np.mean(values):.6g} +- {deviation / np.sqrt(len(values)):.2g}", f"{deviation:.4g}",
                      "{:.5g} to {:.5g}".format(*np.quantile(values, (0.05, 0.95))),
@@ -115,12 +112,11 @@ def sweep_page(files: Files) -> str:
     columns = arrays_of({name: [row[name] for row in rows] for name in names})
     all_keys, known = names[names.index("run") + 1 : names.index("outcome")], keys()
     outcomes = Counter(row["outcome"] for row in rows)
-    counts = columns.get("n_sub_impacts", np.array([]))
+    counts = known_numbers(columns, "n_sub_impacts")
     shown = [("runs", str(len(rows)), ""), ("completed", str(outcomes["completed"]), "")]
-    if counts.dtype.kind == "f" and np.isfinite(counts).any():
-        shown.append(("sub-impacts per run", f"{np.nanmin(counts):.0f} to {np.nanmax(counts):.0f}", ""))
-    mapped = [name for name in _MAPPED if name in columns and columns[name].dtype.kind == "f" and np.isfinite(columns[name]).any()]
-    drawings = {f"map-{name}": figure_of(sweep_map, columns, column=name) for name in mapped}
+    if len(counts):
+        shown.append(("sub-impacts per run", f"{counts.min():.0f} to {counts.max():.0f}", ""))
+    drawings = {f"map-{name}": figure_of(sweep_map, columns, column=name) for name in _MAPPED if len(known_numbers(columns, name))}
     drawings["histograms"] = figure_of(histograms, columns)
     units = {key: known[key].unit if key in known else "" for key in all_keys}
     base = files.directory / "base.toml"
@@ -129,7 +125,7 @@ def sweep_page(files: Files) -> str:
     listed = ["run", *all_keys, *(name for name in _SHOWN if name in names)]
     body = (f'<ul class="headline">\n{_certainty(columns, outcomes, len(rows))}</ul>\n<div class="tiles">\n{tiles(shown)}</div>\n'
             "<h2>Keys that differ</h2>\n"
-            + table(["key", "meaning", "values"], [(key, known[key].meaning if key in known else "", _values(columns[key], units[key]))
+            + table(["key", "meaning", "values"], [(key, known[key].meaning if key in known else "", _values(columns, key, units[key]))
                                                    for key in all_keys])
             + _statistics(columns) + _base_case(files) + "<h2>Figures</h2>\n" + _figures(drawings)
             + "<h2>Runs</h2>\n" + table(listed, [[row[name] for name in listed] for row in rows[:_MOST_ROWS]], "runs")

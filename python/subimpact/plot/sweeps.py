@@ -37,11 +37,15 @@ def _name_and_unit(column: str) -> tuple[str, float]:
     return f"{words.replace('_', ' ')}, {name}", factor
 
 
-def _numbers(runs: Table, column: str) -> Any:
+def known_numbers(runs: Table, column: str) -> Any:
+    """The finite ones of a column; none of texts."""
     values = np.asarray(runs[column] if column in runs else [])
-    if not len(values) or values.dtype.kind not in "if" or not np.isfinite(values).any():
-        raise Absent(f"the runs have no numbers in a column {column}")
-    return values.astype(float)
+    return values[np.isfinite(values)] if values.dtype.kind in "if" else values[:0]
+
+
+def _numbers(runs: Table, column: str) -> Any:
+    present(known_numbers(runs, column), f"the runs have no numbers in a column {column}")
+    return np.asarray(runs[column], float)
 
 
 def error_column(runs: Table, column: str) -> str | None:
@@ -163,8 +167,7 @@ def histogram(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
 
 def _chief(runs: Table) -> Sequence[str]:
     """The columns of CHIEF that differ from run to run."""
-    shown = [name for name in CHIEF if name in runs and np.asarray(runs[name]).dtype.kind in "if"
-             and np.isfinite(runs[name]).any() and np.nanmax(runs[name]) > np.nanmin(runs[name])]
+    shown = [name for name in CHIEF if len(np.unique(known_numbers(runs, name))) > 1]
     chief: Sequence[str] = present(shown, "no number differs from run to run")
     return chief
 

@@ -3,17 +3,10 @@
 
 const byId = (id) => document.getElementById(id);
 
-// An array of numbers: 64-bit or 32-bit floating point, or signed 24-bit multiples of a step.
-function unpacked(column) {
-  const text = atob(column.f64 ?? column.f32 ?? column.i24);
-  const bytes = Uint8Array.from(text, (c) => c.charCodeAt(0));
-  if (column.f64 !== undefined) return new Float64Array(bytes.buffer);
-  if (column.f32 !== undefined) return new Float32Array(bytes.buffer);
-  const numbers = new Float32Array(bytes.length / 3);
-  for (let i = 0, k = 0; k < numbers.length; i += 3, ++k) {
-    numbers[k] = (((bytes[i] | (bytes[i + 1] << 8) | (bytes[i + 2] << 16)) << 8) >> 8) * column.step;
-  }
-  return numbers;
+// An array of numbers, 64-bit or 32-bit floating point.
+function unpacked({f64, f32}) {
+  const {buffer} = Uint8Array.from(atob(f64 ?? f32), (c) => c.charCodeAt(0));
+  return f64 === undefined ? new Float32Array(buffer) : new Float64Array(buffer);
 }
 
 function unpackedColumns(columns) {

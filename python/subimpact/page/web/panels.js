@@ -318,7 +318,8 @@ function drawAlongBeam(strike, canvas, {lines, label, zones = []}) {
 
 // Light, dark or as the system is. `restyle` draws in the new colours.
 function addThemeButton(restyle) {
-  const names = ['auto', 'light', 'dark'];
+  const media = {auto: byId('dark').media, light: 'not all', dark: 'screen'};
+  const names = Object.keys(media);
   const repaint = () => {
     forgetColours();
     restyle();
@@ -327,8 +328,7 @@ function addThemeButton(restyle) {
   let at = 0;
   button.addEventListener('click', () => {
     at = (at + 1) % names.length;
-    if (at === 0) delete document.documentElement.dataset.theme;
-    else document.documentElement.dataset.theme = names[at];
+    byId('dark').media = media[names[at]];
     button.textContent = 'Colours: ' + names[at];
     repaint();
   });
