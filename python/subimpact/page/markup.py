@@ -25,7 +25,6 @@ def web(name: str) -> str:
 
 
 def escaped(text: object) -> str:
-    """A text as a page shows it literally."""
     return html.escape(_NO_XML.sub("\ufffd", printable(str(text))))
 
 
@@ -39,7 +38,6 @@ def filled(name: str, fields: Mapping[str, str]) -> str:
 
 
 def tiles(answers: Iterable[tuple[str, str, str]]) -> str:
-    """A tile per label, value and note."""
     return "".join(f"<div><span>{escaped(label)}</span><b>{in_print(value)}</b>"
                    + (f"<small>{in_print(note)}</small>" if note else "") + "</div>\n" for label, value, note in answers)
 
@@ -56,7 +54,6 @@ def headlines(lines: Iterable[tuple[bool, str, str]]) -> str:
 
 
 def table(heading: Sequence[str], rows: Iterable[Sequence[object]], name: str = "") -> str:
-    """A table of texts."""
     head = "".join(f"<th>{escaped(name)}</th>" for name in heading)
     body = "".join("<tr>" + "".join(f"<td>{in_print(cell)}</td>" for cell in row) + "</tr>\n" for row in rows)
     mark = f' id="{name}"' if name else ""
@@ -108,7 +105,6 @@ def data_element(data: Any) -> str:
 
 
 def whole(title: str, body: str, style: str = "", data: str = "", scripts: Iterable[str] = ()) -> str:
-    """A page."""
     elements = "".join(f"<script>/*<![CDATA[*/\n{script}\n/*]]>*/</script>\n" for script in scripts)
     return filled("page.html", {"title": escaped(title), "style": web("report.css") + style, "dark": web("dark.css"), "body": body,
                                 "data": data, "scripts": elements})

@@ -7,6 +7,7 @@ from __future__ import annotations
 import base64
 import sys
 from array import array
+from bisect import bisect
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from typing import Any
@@ -83,7 +84,7 @@ def shapes(files: Files, n_points: int, n_rows: int, struck_at: float, events: E
     n = n_rows // n_points
     points: list[int] = []
     times, fields = [], [[], [], []]  # type: ignore[var-annotated]
-    pending = [event["time"] for event in reversed(events)]
+    n_events, event_times = 0, [event["time"] for event in events]
     for k, block in enumerate(iter(lambda: list(islice(lines, n_points)), [])):
         if k == 0:
             positions = [float(row[wanted[0]]) for row in block]
@@ -93,12 +94,9 @@ def shapes(files: Files, n_points: int, n_rows: int, struck_at: float, events: E
             regular = set(_every_nth(n, most // 2 if n > most else n))
             spare = most - len(regular)
         now = float(block[0][time])
-        is_event = False
-        while pending and pending[-1] <= now:
-            pending.pop()
-            is_event = True
+        n_before, n_events = n_events, bisect(event_times, now)
         if k not in regular:
-            if not is_event or spare <= 0:
+            if n_events == n_before or spare <= 0:
                 continue
             spare -= 1
         times.append(now)
@@ -112,7 +110,6 @@ def shapes(files: Files, n_points: int, n_rows: int, struck_at: float, events: E
 
 
 def envelope(files: Files, points: Sequence[int]) -> dict[str, Any]:
-    """Extremes along the beam, and the shape at rest."""
     rows = files.table("envelope.csv")
 
     def column(name: str) -> list[float]:

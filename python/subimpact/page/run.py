@@ -4,10 +4,11 @@ report, with the figures that `subimpact plot` has drawn."""
 from __future__ import annotations
 
 import json
+import re
 import shlex
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from .._errors import ResultsError
 from .._files import Files, fingerprint, parsed, read_manifest
@@ -21,17 +22,13 @@ _FIRST = ("sub_impacts", "largest_force", "first_parting", "contact_end", "perma
 _MOST_ZONES = _MOST_FLIGHTS = 8
 
 
-class Figures(NamedTuple):
-    drawn: list[tuple[str, str, str]]  #: name, caption, SVG file
-    left_out: list[str]  #: with the reasons
-
-
-def drawn_figures(directory: Path, identity: str) -> Figures:
-    """The figures of the run of that identity, as figures.json lists them; those that were changed since are left out."""
+def drawn_figures(directory: Path, identity: str) -> tuple[list[tuple[str, str, str]], list[str]]:
+    """The figures of the run of that identity, as figures.json lists them: names, captions, SVG files; and why others are left
+    out, such as those that were changed since."""
     manifest = read_manifest(directory)
-    found = Figures([], [])
+    drawn: list[tuple[str, str, str]] = []
     if not manifest or manifest["identity"] != identity:
-        return found
+        return drawn, []
     listed_files = manifest["files"]
 
     def as_drawn(name: str) -> bytes:
@@ -43,16 +40,15 @@ def drawn_figures(directory: Path, identity: str) -> Figures:
 
     text = as_drawn("figures.json")
     if not text:
-        return found
-    listed = parsed(directory / "figures.json", text, "a list of figures", "draw them again")
+        return drawn, []
+    listed, left_out = parsed(directory / "figures.json", text, "a list of figures", "draw them again"), []
     for figure in listed["figures"]:
         svg = as_drawn(f"{figure['name']}.svg").decode(errors="replace")
         if is_still(svg):
-            found.drawn.append((figure["name"], figure["caption"], svg))
+            drawn.append((figure["name"], figure["caption"], svg))
         else:
-            found.left_out.append(f"{figure['name']}: has no SVG file, or one that was changed")
-    found.left_out.extend(listed["left_out"])
-    return found
+            left_out.append(f"{figure['name']}: has no SVG file, or one that was changed")
+    return drawn, left_out + listed["left_out"]
 
 
 def counted(n: int, noun: str) -> str:
@@ -223,8 +219,8 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
     """The page of the run in a directory; `measured`: where subimpact.measured has written, or empty. Raises ResultsError."""
     summary, report = files.of_run
     section, overlay, more_figures = _measured(measured)
-    shown = drawn_figures(files.directory / "figures", files.identity)
-    shown.drawn.extend(more_figures)
+    drawn, left_out = drawn_figures(files.directory / "figures", files.identity)
+    drawn += more_figures
     hits = files.table("events.csv")
     data, history_note, shapes_note = _data(files, summary, report, hits, overlay)
     script, style, missing = charts(dygraphs)
@@ -242,7 +238,7 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
         **_certainty(summary, report),
         **_answers(summary),
         "no_charts": paragraphs([missing], "warning", "Zoomable charts are missing: "),
-        "columns": "".join(f"<th>{escaped(each['name'])}<small>{escaped(_unit(each['unit']))}</small></th>" for each in columns),
+        "columns": "".join(f"<th>{escaped(each['name'])}<small>{escaped(re.sub('^u', 'µ', each['unit']))}</small></th>" for each in columns),
         "sub_impacts": "".join(_rows(report, hits)),
         "flights": "".join(f"<p>After sub-impact {each['after_index']} there may be another one: {in_print(each['reason'])}.</p>\n"
                            for each in flights[:_MOST_FLIGHTS])
@@ -251,9 +247,9 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
         "next": _section("What next", f'<dl class="steps">\n{steps}</dl>\n' if steps else ""),
         "measured": section,
         "history_note": history_note, "shapes_note": shapes_note,
-        "figures_heading": "<h2>Figures</h2>\n" if shown.drawn else f'<h2 class="unprinted">Figures</h2>\n{none}',
-        "figures": figures(shown.drawn),
-        "left_out": paragraphs(shown.left_out, before="Not drawn: "),
+        "figures_heading": "<h2>Figures</h2>\n" if drawn else f'<h2 class="unprinted">Figures</h2>\n{none}',
+        "figures": figures(drawn),
+        "left_out": paragraphs(left_out, before="Not drawn: "),
         "summary": in_print(report["verbose"]),
         "toml": escaped(report["case"]),
         "numbers": "".join(_numbers(summary, report["meanings"])),
@@ -261,6 +257,3 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
     return whole(summary["case"]["title"] or "A strike", body, style, data_element(data),
                  [*([script] if script else []), *map(web, _SCRIPTS)])
 
-
-def _unit(unit: str) -> str:
-    return "µ" + unit[1:] if unit.startswith("u") else unit

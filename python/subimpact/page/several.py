@@ -144,7 +144,6 @@ def n_leading(pairs: Sequence[Pair]) -> int:
 
 
 def _pair_row(pair: Pair, first: Any, second: Any) -> list[str]:
-    """A row of the table that compares two runs, of their tables of sub-impacts."""
     a, b = (None if k is None else hits[k] for k, hits in zip(pair, (first, second)))
     cells = ["none" if k is None else str(k + 1) for k in pair]
     cells.append(f"{1e6 * (b if a is None else a)['start_s']:.3f}")

@@ -87,31 +87,21 @@ class Axes {
   // Grid, ticks and labels; what is drawn afterwards lies above the grid.
   frame() {
     const {draw, left, right, top, bottom} = this;
-    draw.font = '12px system-ui, sans-serif';
-    draw.lineWidth = 1;
-    draw.strokeStyle = colour('grid');
-    draw.fillStyle = colour('soft');
-    draw.textBaseline = 'middle';
-    draw.textAlign = 'right';
+    const grid = {colour: colour('grid'), width: 1};
     for (const {at, label} of this.ticks(this.y, bottom - top, 36)) {
-      this.line([[left, this.toY(at)], [right, this.toY(at)]]);
-      draw.fillText(label, left - 7, this.toY(at));
+      this.line([[left, this.toY(at)], [right, this.toY(at)]], grid);
+      this.text(label, left - 7, this.toY(at), 'right', 'soft');
     }
-    draw.textBaseline = 'top';
-    draw.textAlign = 'center';
     for (const {at, label} of this.ticks(this.x, right - left, 90)) {
-      this.line([[this.toX(at), top], [this.toX(at), bottom]]);
-      if (this.x.label) draw.fillText(label, this.toX(at), bottom + 6);
+      this.line([[this.toX(at), top], [this.toX(at), bottom]], grid);
+      if (this.x.label) this.text(label, this.toX(at), bottom + 12, 'center', 'soft');
     }
-    draw.strokeStyle = colour('soft');
-    this.line([[left, top], [left, bottom], [right, bottom]]);
-    draw.fillStyle = colour('text');
-    if (this.x.label) draw.fillText(this.x.label, (left + right) / 2, bottom + 25);
+    this.line([[left, top], [left, bottom], [right, bottom]], {colour: colour('soft')});
+    if (this.x.label) this.text(this.x.label, (left + right) / 2, bottom + 31, 'center');
     draw.save();
     draw.translate(12, (top + bottom) / 2);
     draw.rotate(-Math.PI / 2);
-    draw.textBaseline = 'middle';
-    draw.fillText(this.y.label, 0, 0);
+    this.text(this.y.label, 0, 0, 'center');
     draw.restore();
   }
 

@@ -122,19 +122,17 @@ class View {
     this.time = 0;
     this.from = 0;
     this.to = end;
-    this.listeners = [];
+    this.changed = (what) => {};  // 'time' or 'part'
   }
-  // change(what): 'time' or 'part' has changed.
-  onChange(change) { this.listeners.push(change); }
   setTime(time) {
     this.time = Math.min(Math.max(time, 0), this.end);
-    this.listeners.forEach((change) => change('time'));
+    this.changed('time');
   }
   setPart(from, to) {
     const least = 1e-9 * this.end;  // below which digits end
     this.from = Math.max(0, Math.min(from, this.end - least));
     this.to = Math.min(this.end, Math.max(to, this.from + least));
-    this.listeners.forEach((change) => change('part'));
+    this.changed('part');
   }
   showAll() { this.setPart(0, this.end); }
   // The part, in words, in a unit of time; none for the whole strike.

@@ -1,33 +1,29 @@
 'use strict';
 // The beam moving: deflected shape with the striker, and the diagram of moments below it.
 
+// The largest distance of numbers from one.
+function largest(numbers, from = 0) { return numbers.reduce((most, x) => Math.max(most, Math.abs(x - from)), 0); }
+
 class Motion {
   // Displacements are drawn `exaggeration` times as large as lengths along the beam.
   constructor(strike, shapeCanvas, momentCanvas) {
     Object.assign(this, {strike, shapeCanvas, momentCanvas});
     this.follows = !strike.held;
-    this.struck = strike.struck_at;
-    this.largestPlastic = strike.shapes.plastic.reduce((most, k) => Math.max(most, Math.abs(k)), 0);
-    this.largestMoment = strike.shapes.moment.reduce((most, m) => Math.max(most, Math.abs(m)), 0);
+    this.largestPlastic = largest(strike.shapes.plastic);
+    this.largestMoment = largest(strike.shapes.moment);
     this.exaggeration = this.suitable();
   }
 
   // What displacements are measured from: the beam's mean, if the picture moves with it.
-  origin(shape) { return this.follows ? this.strike.mean(shape.displacement) : 0; }
+  origin(displacement) { return this.follows ? this.strike.mean(displacement) : 0; }
 
   // The exaggeration, 1, 2 or 5 times a power of ten, at which the largest deflection fits.
   suitable() {
     const {times, positions, displacement} = this.strike.shapes;
-    const n = positions.length;
-    let most = 0;
-    for (let k = 0; k < times.length; ++k) {
-      const field = displacement.subarray(k * n, (k + 1) * n);
-      const origin = this.follows ? this.strike.mean(field) : 0;
-      for (const w of field) most = Math.max(most, Math.abs(w - origin));
-    }
+    const fields = Array.from(times, (_, k) => displacement.subarray(k * positions.length, (k + 1) * positions.length));
+    let most = fields.reduce((most, field) => Math.max(most, largest(field, this.origin(field))), 0);
     if (this.strike.stop && this.strike.hasHistory) {  // which is to be seen with its gap
-      const origin = this.follows ? this.strike.mean(displacement.subarray(0, n)) : 0;
-      for (const w of this.strike.history.w_m_m) most = Math.max(most, Math.abs(w - origin));
+      most = Math.max(most, largest(this.strike.history.w_m_m, this.origin(fields[0])));
     }
     if (!(most > 0)) return 1;
     const {clientWidth: width, clientHeight: height} = this.shapeCanvas;
@@ -53,7 +49,7 @@ class Motion {
       y: {range: [0.5 * extent, -0.5 * extent],
           label: this.follows ? 'w − its mean, mm' : 'displacement w, mm'}});
     axes.frame();
-    const origin = this.origin(shape);
+    const origin = this.origin(shape.displacement);
     const points = Array.from(strike.shapes.positions, (x, i) =>
       [axes.toX(x), axes.toY(1e3 * (shape.displacement[i] - origin))]);
     const thick = Math.max(5, strike.thickness / length * (axes.right - axes.left));
@@ -90,7 +86,7 @@ class Motion {
     const {strike} = this;
     const {draw} = axes;
     const touches = strike.at('force_N', time) > 0;
-    const x = axes.toX(this.struck);
+    const x = axes.toX(strike.struck_at);
     const nose = axes.toY(1e3 * (strike.at('w_m_m', time) - origin)) - 0.5 * thick;
     // The nose is to the scale of the beam's length, unless it would be too small to see.
     const radius = Math.max(4, strike.nose_radius / strike.length * (axes.right - axes.left));

@@ -6,25 +6,18 @@ const lineStyles = [
   {colour: 'line4', dash: [9, 3, 2, 3]}, {colour: 'line5', dash: [4, 4]}, {colour: 'line6', dash: [12, 4]},
   {colour: 'soft', dash: [1, 3]}];
 
-// What marks the time shown, above a canvas that stays as it is.
-function overlay(canvas, name) {
+// What marks the time shown, above a panel that stays as it is.
+function markOver(panel, name) {
   const mark = document.createElement('div');
   mark.className = name;
-  canvas.parentElement.append(mark);
+  panel.append(mark);
   return mark;
-}
-
-// Bands of sub-impacts in a unit of time.
-function bandsOf(hits, {per_second: perSecond}) {
-  return hits.map(({start, end, certain}) => ({from: start * perSecond, to: end * perSecond, certain}));
 }
 
 // A zoomable chart over time. rows: [time, value, ...] in the units of the labels.
 class TimeChart {
-  constructor(place, {rows, labels, valueLabel, unit, bands = [], view}) {
-    Object.assign(this, {place, unit, view, bands, quiet: true});
-    this.cursor = document.createElement('div');
-    this.cursor.className = 'cursor';
+  constructor(place, {rows, labels, valueLabel, unit, hits, view}) {
+    Object.assign(this, {place, unit, view, hits, quiet: true});
     const body = place.querySelector('.plot');
     this.chart = new Dygraph(body, rows, {
       ...this.colours(labels.length),
@@ -47,7 +40,7 @@ class TimeChart {
       drawCallback: (chart, initial) => this.drawn(chart, initial),
       clickCallback: (event, x) => view.setTime(x / unit.per_second),
     });
-    body.append(this.cursor);
+    this.cursor = markOver(body, 'cursor');
     this.quiet = false;
     this.showTime();
   }
@@ -86,9 +79,9 @@ class TimeChart {
   // Sub-impacts, hatched where they are not certain.
   drawBands(draw, area, chart) {
     const hatch = hatching();
-    for (const {from, to, certain} of this.bands) {
-      const left = Math.max(chart.toDomXCoord(from), area.x);
-      const right = Math.min(chart.toDomXCoord(to), area.x + area.w);
+    for (const {start, end, certain} of this.hits) {
+      const [from, to] = [start, end].map((time) => chart.toDomXCoord(time * this.unit.per_second));
+      const left = Math.max(from, area.x), right = Math.min(to, area.x + area.w);
       if (right < left) continue;
       draw.fillStyle = certain ? colour('band') : hatch;
       draw.fillRect(left, area.y, Math.max(right - left, 0.5), area.h);
@@ -140,7 +133,7 @@ function hatching() {
 // Contact force against indentation, with the branches of the contact law in colours.
 class Loop {
   constructor(strike, canvas, view) {
-    Object.assign(this, {strike, canvas, view, dot: overlay(canvas, 'dot')});
+    Object.assign(this, {strike, canvas, view, dot: markOver(canvas.parentElement, 'dot')});
     const {times, events} = strike;
     this.pieces = events.map(({time, kind}, k) => {
       const from = Math.max(countUpTo(times, time) - 1, 0);
@@ -208,7 +201,7 @@ class Loop {
 // which each begins: bars from the axis, numerical error.
 class Timeline {
   constructor(strike, canvas, view, choose) {
-    Object.assign(this, {strike, canvas, view, cursor: overlay(canvas, 'cursor')});
+    Object.assign(this, {strike, canvas, view, cursor: markOver(canvas.parentElement, 'cursor')});
     const hits = strike.sub_impacts;
     this.marks = [];
     hits.forEach((s, i) => {

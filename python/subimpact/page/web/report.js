@@ -74,7 +74,7 @@ class Page {
     this.addControls();
     this.addTable();
     document.addEventListener('keydown', (event) => this.key(event));
-    view.onChange((what) => this.later(what));
+    view.changed = (what) => this.later(what);
     new ResizeObserver(() => this.later('size')).observe(document.body);
     this.watchPanels();
     addThemeButton(() => this.restyle());
@@ -121,7 +121,7 @@ class Page {
     const {strike, view} = this;
     this.charts.push(new TimeChart(byId(id), {
       rows: chartRows(strike, columns), labels: columns.map((column) => column.label), valueLabel,
-      unit: strike.time_unit, bands: bandsOf(strike.sub_impacts, strike.time_unit), view}));
+      unit: strike.time_unit, hits: strike.sub_impacts, view}));
   }
 
   // Measured and computed force, or strain, each at its own times.
@@ -133,7 +133,7 @@ class Page {
       times, (time, i) => [time * unit.per_second, k === 0 ? factor * forces[i] : null, k === 1 ? factor * forces[i] : null]));
     this.charts.push(new TimeChart(chart, {
       rows: rows.sort((a, b) => a[0] - b[0]), labels: ['measured', 'computed, as the transducer shows it'],
-      valueLabel, unit, bands: bandsOf(hits, unit), view: this.view}));
+      valueLabel, unit, hits, view: this.view}));
   }
 
   // Canvases out of sight are not painted while the picture moves.
