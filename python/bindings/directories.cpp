@@ -61,7 +61,6 @@ void bind_directories(py::module_& module) {
       .def(py::init<const std::string&, const std::string&, double, const std::string&>(),
            py::arg("directory"), py::arg("kind"), py::arg("patience_s") = 0.0,
            py::arg("identity") = "", py::call_guard<py::gil_scoped_release>())
-      .def_property_readonly("path", [](const Directory& d) { return d.open().path().string(); })
       .def_property_readonly("staging",
                              [](const Directory& d) { return d.open().staging().string(); })
       .def(

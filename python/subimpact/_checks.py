@@ -16,12 +16,10 @@ ALLOWED_TIMEOUT = f'seconds above 0, up to {LONGEST:g}, or a text such as "90 s"
 
 
 def is_whole(value: object, least: int, most: int) -> bool:
-    """Whether this is a whole number within bounds."""
     return isinstance(value, Integral) and not isinstance(value, bool) and least <= int(value) <= most
 
 
 def is_positive(value: object, most: float = math.inf) -> bool:
-    """Whether this is a finite number above 0, up to `most`."""
     if not isinstance(value, Real) or isinstance(value, bool):
         return False
     try:

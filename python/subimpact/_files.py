@@ -87,8 +87,7 @@ class Files:
     @property
     def listed(self) -> dict[str, Any]:
         """Fingerprints of the files, by their names."""
-        files: dict[str, Any] = self.manifest["files"] if self.manifest else {}
-        return files
+        return self.manifest["files"] if self.manifest else {}
 
     @property
     def again(self) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 
 from ._errors import CaseError
 
-#: Parts of a key, and tables or lists in each other.
+#: Parts of a key, and tables in each other.
 DEEPEST = 32
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
@@ -42,18 +42,10 @@ def dotted(key: str) -> str:
     return ".".join(part if _BARE.match(part) else quoted(part) for part in key.split("."))
 
 
-def is_too_deep(text: str) -> bool:
-    """Whether a text of TOML has deeper keys or more open brackets than DEEPEST. Parsers take
-    dotted keys in quadratic time, and brackets by recursion."""
+def has_deep_key(text: str) -> bool:
+    """Whether a text of TOML has keys of more than DEEPEST parts, which parsers take in quadratic time."""
     bare = _STRINGS_AND_COMMENTS.sub("x", text)
-    if any(part.count(".") > DEEPEST for part in re.split(r"[=,\n\[\]{}]", bare)):
-        return True
-    depth = 0
-    for bracket in re.findall(r"[\[\]{}]", bare):
-        depth = depth + 1 if bracket in "[{" else max(0, depth - 1)
-        if depth > DEEPEST:
-            return True
-    return False
+    return any(part.count(".") > DEEPEST for part in re.split(r"[=,\n\[\]{}]", bare))
 
 
 def flat(tables: Mapping[str, Any], prefix: str = "", value_with: str = "") -> dict[str, Any]:

@@ -92,12 +92,9 @@ class Case:
         Case(beam={"length": 0.7112, ...}, striker={"mass": 0.201, ...}, time={"end": 8e-3})
         Case({"beam.length": 0.7112, ...})
 
-    `case[key] = value` then changes a key. It goes before what the case began with, as `--set`
-    does on the command line. A value that its key does not allow raises CaseError at once; what
-    keys must have together is checked by `check`, and before every run. `case[key]` is the value
-    of a key or its default, None if the key is left open.
-
-    Cases may be copied, compared and pickled.
+    `case[key] = value` then changes a key, as `--set` does. A value that its key does not allow raises CaseError at once; what
+    keys must have together is checked by `check`, and before every run. `case[key]` is the value of a key or its default, None
+    if the key is left open. Cases may be copied, compared and pickled.
     """
 
     def __init__(self, tables: Mapping[str, Any] | None = None, /, **more: Any) -> None:
@@ -183,8 +180,7 @@ class Case:
 
     def run(self, **options: Any) -> Result:
         """The results of `subimpact.run(case, ...)`, with its options."""
-        result: Result = import_module(".running", __package__).run(self, **options)
-        return result
+        return import_module(".running", __package__).run(self, **options)
 
     def given(self) -> dict[str, Any]:
         """The keys that the case gives, with their values; all others have their defaults."""
@@ -268,8 +264,7 @@ class Case:
     def resolve(self) -> dict[str, Any]:
         """The settings that a run uses (of the first run, where the program chooses mesh and
         method), as "used" in summary.json. Raises CaseError for what cannot be modelled."""
-        used: dict[str, Any] = json.loads(self._load().resolved_summary())["used"]
-        return used
+        return json.loads(self._load().resolved_summary())["used"]
 
     def identity(self, how: str = "") -> str:
         """A hash of the program's version, of all keys but the title, and of `how`. Cases of the

@@ -23,9 +23,7 @@ from .result import Result
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from .result import Table
-
-    Numbers = npt.NDArray[np.float64]
+    from .result import Numbers, Table
 
 Quantity = Literal[
     "start_s",
@@ -66,10 +64,9 @@ class Sensitivity:
 
     @cached_property
     def table(self) -> Table:
-        """sensitivity.csv as a structured array. A row per number of a sub-impact: "quantity" (its
-        name with the unit), "sub_impact" (from 1), "value", for each key "d_<key>", the derivative
-        by its logarithm, and "error_<key>", the error of that, both in the unit of the quantity;
-        "flag": why they are not reliable, in words. NaN: a contact merges, splits or vanishes."""
+        """sensitivity.csv as a structured array. A row per number of a sub-impact: "quantity" (its name with the unit), "sub_impact"
+        (from 1), "value", for each key "d_<key>", the derivative by its logarithm, and "error_<key>", in the unit of the quantity;
+        "flag": why they are not reliable. NaN: a contact merges, splits or vanishes."""
         pairs = np.stack([self.derivatives, self.errors], axis=-1).reshape(*self.values.shape, -1)
         rows = [(QUANTITIES[q], i + 1, value, *pairs[i, q], self.flags[i][q])
                 for (i, q), value in np.ndenumerate(self.values) if np.isfinite(value)]
@@ -80,15 +77,13 @@ class Sensitivity:
         return table
 
     def jacobian(self, quantity: Quantity) -> Numbers:
-        """The derivatives of one quantity by the logarithms of `keys`, of shape (sub-impacts that
-        have it, keys), in its own unit, with which its name ends: "start_s", "end_s",
-        "peak_force_N", "impulse_Ns", "max_indentation_m" or "striker_velocity_m_per_s". The change
-        by one per cent of a key is a hundredth of its column. Raises ValueError for other names."""
+        """The derivatives of one quantity by the logarithms of `keys`, of shape (sub-impacts that have it, keys), in the unit with
+        which its name ends: "start_s", "end_s", "peak_force_N", "impulse_Ns", "max_indentation_m" or "striker_velocity_m_per_s".
+        The change by one per cent of a key is a hundredth of its column. Raises ValueError for other names."""
         if quantity not in QUANTITIES:
             raise ValueError(f"quantity is {quantity!r}; allowed: {', '.join(QUANTITIES)}")
         q = QUANTITIES.index(quantity)
-        found: Numbers = self.derivatives[np.isfinite(self.values[:, q]), q]
-        return found
+        return self.derivatives[np.isfinite(self.values[:, q]), q]
 
     def report(self) -> str:
         """The table that `subimpact sensitivity` prints: changes of event times per 1 %."""
@@ -171,8 +166,7 @@ def _differences(base: Numbers, runs: Numbers) -> tuple[Numbers, Numbers]:
 def _noise(bends: Numbers) -> Numbers:
     """The error of one run, from second differences: the bend at the smaller shift, minus its value extrapolated from the
     larger shift for a smooth number, is that error times the root of 3/2."""
-    error: Numbers = np.abs(bends[:, 1] - bends[:, 0] / (_RATIO * _RATIO)) / np.sqrt(1.5)
-    return error
+    return np.abs(bends[:, 1] - bends[:, 0] / (_RATIO * _RATIO)) / np.sqrt(1.5)
 
 
 def _derived(base: Numbers, runs: Numbers, error: Numbers, smooth: bool) -> tuple[Numbers, Numbers]:
@@ -268,15 +262,6 @@ def _flag_later_contacts(study: Sensitivity, runs: list[Table]) -> None:
             study.flags[-1] = [flag or words for flag in study.flags[-1]]
 
 
-def keys_by(case: Case, by: str | Sequence[str]) -> list[str]:
-    """The keys of a study: all that have a derivative if none is named. Raises CaseError for one that has none."""
-    keys = [by] if isinstance(by, str) else list(by)
-    for key in keys:
-        if reason := _core.why_not_shifted(case._load(), key):
-            raise CaseError(f"{key} {reason}", key)
-    return keys or _core.shifted_keys(case._load())
-
-
 def study_of(case: Case, keys: list[str], given: Case, runs: Runs) -> Sensitivity:
     """The derivatives of a case as it is. `given`: the case from which it was made."""
     step = case["solver.step"]
@@ -329,28 +314,28 @@ def sensitivity(
     jobs: int = 1,
     progress: Callable[[int, int], object] | None = None,
 ) -> Sensitivity:
-    """Derivatives of start, end, peak force, impulse, indentation and striker velocity of every
-    sub-impact by the logarithms of keys, as `subimpact sensitivity` computes them: from two pairs
-    of runs per key, at rtol 1e-13 on one mesh, whose mismatch gives the error of each derivative.
+    """Derivatives of start, end, peak force, impulse, indentation and striker velocity of every sub-impact by the logarithms of
+    keys: from two pairs of runs per key, at rtol 1e-13 on one mesh, whose mismatch gives the error of each derivative.
 
     by        keys; none: all numbers of beam, striker and contact that take effect
     jobs      threads; results do not depend on it
     progress  called with the number of runs that ended, and of all; False ends the study
 
-    A sub-impact is flagged if it is merged, split or lost in a shifted run, if another one appears
-    before it, if a near miss lies within its change over the shifts, if the slopes on the two sides
-    differ (a kink) or those of the two shifts (about to merge, split or vanish), or if an error is a
-    tenth of the largest derivative of the row.
+    A sub-impact is flagged if it is merged, split or lost in a shifted run, if another one appears before it, if a near miss
+    lies within its change over the shifts, if the slopes on the two sides differ (a kink) or those of the two shifts (about to
+    merge, split or vanish), or if an error is a tenth of the largest derivative of the row.
 
-    Other Python threads go on meanwhile. After Ctrl-C there are the keys whose runs had ended; if
-    there are none, KeyboardInterrupt is raised. A base run that fails leaves no derivatives: see
-    `base`. Raises CaseError for a case that cannot be run, and for a key without a derivative.
+    After Ctrl-C there are the keys whose runs had ended; if there are none, KeyboardInterrupt is raised. A base run that fails
+    leaves no derivatives: see `base`. Raises CaseError for a case that cannot be run, and for a key without a derivative.
     """
     check_jobs(jobs)
     check_progress(progress)
     chosen = Case.from_text(_core.as_chosen(as_case(case)._load(), jobs))
     base = Case.from_text(_core.for_derivatives(chosen._load()))
-    keys = keys_by(base, by)
+    keys = ([by] if isinstance(by, str) else list(by)) or _core.shifted_keys(base._load())
+    for key in keys:
+        if reason := _core.why_not_shifted(base._load(), key):
+            raise CaseError(f"{key} {reason}", key)
     runs = Runs(jobs, progress, 2 + _RUNS_PER_KEY * len(keys))
     study = study_of(base, keys, chosen, runs)
     if runs.by_signal and not study.keys:
@@ -372,7 +357,6 @@ signal's number: stopped (130 by Ctrl-C), with the keys whose runs had ended."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command; returns its exit status."""
     command = Command("sensitivity", "Shows how event times, forces and velocities depend on the numbers of a case.", _EXAMPLES)
     command.add("--by", metavar="KEY,...", default="", help="keys to derive by; default: all numbers of beam, striker and "
                 "contact that take effect")

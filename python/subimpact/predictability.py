@@ -23,8 +23,7 @@ from .result import Result
 from .sweep.plan import Plan
 
 if TYPE_CHECKING:
-    from .derivatives import Numbers
-    from .result import Table
+    from .result import Numbers, Table
 
 N_SAMPLES = 64
 _OF_LENGTH = 0.5  # of a duration or separation, in events beside it
@@ -74,8 +73,7 @@ class Scatter:
     def deviation(self, derivatives: Numbers, errors: Numbers) -> Numbers:
         """Standard deviations of numbers with these derivatives (keys last), each enlarged by its error."""
         change = np.where(self._s > 0, (np.abs(derivatives) + errors) * self._s, 0.0)
-        found: Numbers = np.sqrt(np.square(change).sum(axis=-1))
-        return found
+        return np.sqrt(np.square(change).sum(axis=-1))
 
     def _of_difference(self, later: tuple[int, int], earlier: tuple[int, int]) -> float:
         d, e = self.study.derivatives, self.study.errors
@@ -244,9 +242,9 @@ def scatter(
     progress: Callable[[int, int], object] | None = None,
     distribution: str = "normal",
 ) -> Scatter:
-    """What the scatter of a case, its [scatter], leaves of the strike, as `subimpact scatter` shows it: standard deviations
-    of event times by derivatives, how many sub-impacts can be predicted one by one, and numbers of the strike as a whole
-    over 64 samples. Where the runs would take long, they are on coarser meshes, at least an eighth as fine.
+    """What the scatter of a case, its [scatter], leaves of the strike: standard deviations of event times by derivatives, how many
+    sub-impacts can be predicted one by one, and numbers of the strike as a whole over 64 samples. Where the runs would take long,
+    they are on coarser meshes, at least an eighth as fine.
 
     jobs      threads; results do not depend on it
     distribution  of the samples: "normal" or "uniform", of the same standard deviations
@@ -299,7 +297,6 @@ the signal's number: stopped (130 by Ctrl-C)."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command; returns its exit status."""
     command = Command("scatter", "Shows how far a strike can be predicted whose numbers scatter ([scatter] of the case).", _EXAMPLES)
     command.add("--distribution", choices=("normal", "uniform"), default="normal", help="of the samples: normal, or uniform between "
                 "1.73 standard deviations below and above")

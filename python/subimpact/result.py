@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    Numbers = npt.NDArray[np.float64]
     Table = npt.NDArray[np.void]
 
 
@@ -42,10 +43,9 @@ def _table(name: str, meaning: str) -> cached_property[Table]:
 class Result:
     """The results of a run.
 
-    Tables are structured NumPy arrays with the columns of the CSV files of a run; each is made once,
-    at its first use, and is read-only. `table["start_s"]` is a view of a column;
-    `pandas.DataFrame(table)` is the table for pandas. An empty cell of the file is NaN in a column
-    of real numbers and -1 in one of whole numbers.
+    Tables are structured NumPy arrays with the columns of the CSV files of a run, made at their first use and read-only:
+    `table["start_s"]` is a view of a column, `pandas.DataFrame(table)` the table for pandas. An empty cell of the file is NaN
+    in a column of real numbers and -1 in one of whole numbers.
     """
 
     def __init__(self, run: _core.Finished | Stored) -> None:
@@ -64,26 +64,22 @@ class Result:
     @cached_property
     def summary(self) -> dict[str, Any]:
         """summary.json: settings given and used, counts, zones, conservation, work."""
-        summary: dict[str, Any] = json.loads(self._run.summary())
-        return summary
+        return json.loads(self._run.summary())
 
     @cached_property
     def report_data(self) -> dict[str, Any]:
         """report.json: what screen and page show, rounded as errors allow."""
-        report: dict[str, Any] = json.loads(self._run.report_json())
-        return report
+        return json.loads(self._run.report_json())
 
     @property
     def answers(self) -> list[dict[str, Any]]:
         """The main numbers of the run, each with the errors of computation and body: `summary["answers"]`."""
-        answers: list[dict[str, Any]] = self.summary["answers"]
-        return answers
+        return self.summary["answers"]
 
     @property
     def verdict(self) -> dict[str, Any]:
         """First words on the run, and their kinds: `summary["verdict"]`."""
-        verdict: dict[str, Any] = self.summary["verdict"]
-        return verdict
+        return self.summary["verdict"]
 
     @property
     def case(self) -> Any:

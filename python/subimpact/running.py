@@ -29,23 +29,19 @@ def run(
 ) -> Result:
     """Simulates a case, as `subimpact run` does.
 
-    error_bars  None: the errors of event times are estimated from a run half as fine, for a quarter
-                of the time; "off": no estimates; "all": those of sub-impacts too where the
-                case fixes the mesh
-    within      bound on the error of every event time, s or "1 us"; the program chooses what the
-                case leaves open of mesh, method and tolerance. Sets accuracy.event_times
+    error_bars  None: errors of event times from a run half as fine, for a quarter of the time; "off": none; "all": those of
+                sub-impacts too where the case fixes the mesh
+    within      bound on the error of every event time, s or "1 us", for which the program chooses what the case leaves open
+                of mesh, method and tolerance: accuracy.event_times
     jobs        threads for the runs of error estimates; results do not depend on it
     progress    called up to twenty times per second with the simulated time, s; False ends the run
     timeout     ends the run after some seconds, or "90 s"
     body_errors  whether errors of the body are estimated too: `Result.summary["body_errors"]`
     out         directory for the files of the run: `Result.write`
 
-    Other Python threads go on meanwhile. A run that is ended by `progress`, `timeout` or Ctrl-C
-    returns what there is, with the outcome "stopped"; `Result.interrupted` and `Result.timed_out`
-    give the reason. A solver that fails returns a result too, with an outcome that says so. Raises
-    CaseError for a case that cannot be run.
-
-    The [scatter] of a case does not change its run: `subimpact.scatter` shows what it leaves.
+    Other Python threads go on meanwhile. A run that `progress`, `timeout` or Ctrl-C ends returns what there is, with the outcome
+    "stopped" (`Result.interrupted`, `Result.timed_out`), and one whose solver fails with an outcome that says so. Raises
+    CaseError for a case that cannot be run. The [scatter] of a case does not change its run: see `subimpact.scatter`.
     """
     case = as_case(case)
     if error_bars not in (None, "off", "all"):

@@ -187,10 +187,10 @@ def test_hdf5_has_the_numbers_of_the_tables(population, tmp_path):
 def test_a_changed_plan_keeps_what_still_fits(population, tmp_path, monkeypatch):
     si.sweep(population, out=tmp_path, workers=0)
     counted = []
-    from subimpact.sweep import engines
+    from subimpact.sweep import running
 
-    run_case = engines.run_case
-    monkeypatch.setattr(engines, "run_case", lambda *a: (counted.append(a[1]), run_case(*a))[1])
+    run_case = running.run_case
+    monkeypatch.setattr(running, "run_case", lambda *a: (counted.append(a[1]), run_case(*a))[1])
     axes = {"striker.mass": [0.05, 0.1, 0.2, 0.4, 0.8], "striker.velocity": [2.0, 4.0]}
     wider = si.Plan(population.case, axes, population.scatter, samples=2)
     si.sweep(wider, out=tmp_path, workers=0)

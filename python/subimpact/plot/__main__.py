@@ -47,7 +47,6 @@ def _listed(text: str) -> list[str]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command; returns its exit status."""
     parser = Parser(prog="subimpact plot", description="Draws the figures of a run, a sweep or a study.", epilog=_EXAMPLES,
                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", metavar="DIR", help="what subimpact run, work-precision or stability, or "

@@ -29,16 +29,8 @@ LIST = "figures.json"
 
 _METADATA: dict[str, dict[str, None]] = {"svg": {"Date": None}, "png": {"Software": None}, "pdf": {"CreationDate": None}}
 _ROOT_STYLE = "stroke-linejoin: round; stroke-linecap: butt; font-family: DejaVu Sans, Arial, Helvetica, sans-serif"
-_OF_RUN: dict[str, Callable[..., Any]] = {
-    "response": run.response,
-    "first-sub-impact": run.first_sub_impact,
-    "indentation": run.indentation,
-    "energies": run.energies,
-    "timeline": run.timeline,
-    "bending": beam.bending,
-    "shapes": beam.shapes,
-    "envelope": beam.envelope,
-}
+_OF_RUN = {draw.__name__.replace("_", "-"): draw for draw in (
+    run.response, run.first_sub_impact, run.indentation, run.energies, run.timeline, beam.bending, beam.shapes, beam.envelope)}
 
 
 class Figure(NamedTuple):
@@ -171,7 +163,6 @@ def identity_of(directory: Path) -> str:
 
 
 def _earlier(directory: Path) -> dict[str, str]:
-    """The captions of figures that were drawn before."""
     return {figure["name"]: figure["caption"] for figure in _read_member(directory / LIST, "figures") or []}
 
 

@@ -234,7 +234,6 @@ def _columns(result: Result) -> tuple[Any, dict[str, Any]]:
 
 
 def _widths(result: Result) -> Any:
-    """The share of each column of the timeline in the width."""
     lengths = np.array([np.subtract(*_span(result, which)[::-1]) for _, which in _zones(result)])
     shares = np.maximum(lengths / lengths.sum(), 0.15)
     return shares / shares.sum()

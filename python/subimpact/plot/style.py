@@ -77,8 +77,7 @@ def grid_of(n: int, columns: int, height: float, least: float = 0.0) -> tuple[An
 
 def style() -> AbstractContextManager[None]:
     """Sizes, fonts and colours for publication, whatever the user's settings of Matplotlib are."""
-    context: AbstractContextManager[None] = matplotlib_style.context(["default", STYLE])
-    return context
+    return matplotlib_style.context(["default", STYLE])
 
 
 def figure(mosaic: Any, height: float = 4.6, **options: Any) -> Callable[[Draw], Callable[..., Any]]:

@@ -168,8 +168,7 @@ def histogram(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
 def _chief(runs: Table) -> Sequence[str]:
     """The columns of CHIEF that differ from run to run."""
     shown = [name for name in CHIEF if len(np.unique(known_numbers(runs, name))) > 1]
-    chief: Sequence[str] = present(shown, "no number differs from run to run")
-    return chief
+    return present(shown, "no number differs from run to run")
 
 
 @figure(lambda runs: grid_of(len(_chief(runs)), min(len(_chief(runs)), 2), 2.4))

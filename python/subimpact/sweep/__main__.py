@@ -95,7 +95,6 @@ def _run(options: argparse.Namespace, executor: Any) -> int:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command; returns its exit status."""
     options = _parser().parse_args(arguments)
     try:
         if options.dask is not None:

@@ -21,7 +21,7 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future
 from typing import Any
 
 from .plan import Plan
-from .worker import Row, identity_of, row_without_result, run_case, run_chunk
+from .worker import Row, identity_of, row_without_result, run_chunk
 
 MOST_DEATHS = 3
 _MOST_IN_A_CHUNK = 2000
@@ -84,8 +84,7 @@ class Processes:
         self._tasks = os.dup(self._pool._call_queue._reader.fileno())  # the pool closes its own when it likes
 
     def submit(self, plan: Plan, numbers: list[int]) -> Future[Any]:
-        future: Future[Any] = self._pool.submit(run_chunk, plan, numbers)
-        return future
+        return self._pool.submit(run_chunk, plan, numbers)
 
     def restart(self) -> None:
         self.stop()
@@ -146,12 +145,6 @@ def _is_death(error: BaseException) -> bool:
     return is_of_python or type(error).__name__ in ("KilledWorker", "CommClosedError")
 
 
-def run_here(plan: Plan, numbers: Iterable[int], sink: Sink) -> None:
-    """Runs cases one after another in this process."""
-    for number in numbers:
-        sink({number: run_case(plan, number)})
-
-
 class Coordinator:
     """Gives chunks of cases to an engine until each case has a row."""
 
@@ -210,7 +203,6 @@ class Coordinator:
 
     def _take(self, done: Iterable[Future[Any]]) -> None:
         rows: dict[int, Row] = {}
-        is_broken = False
         for future in done:
             numbers = self._futures.pop(future)
             error = future.exception()
@@ -219,15 +211,12 @@ class Coordinator:
                 rows.update(zip(numbers, chunk))
                 self._seconds += seconds
                 self._n_timed += len(numbers)
-            elif _is_death(error):
-                is_broken = True
+            elif _is_death(error):  # as all tasks of a broken pool end: they are run again
                 rows.update(self._blame(numbers))
             else:
                 raise error
         if rows:
             self._sink(rows)
-        if is_broken and isinstance(self._engine, Processes):
-            self._abandon()
 
     def _blame(self, numbers: list[int]) -> dict[int, Row]:
         if self._is_alone:
@@ -238,13 +227,3 @@ class Coordinator:
                 return {number: row_without_result(identity_of(self._plan, number), "crashed", message)}
         self._suspects.extend(numbers)
         return {}
-
-    def _abandon(self) -> None:
-        """All tasks of a broken pool fail: what has not ended is run again."""
-        for future in list(self._futures):
-            numbers = self._futures.pop(future)
-            if future.done() and not future.cancelled() and future.exception() is None:
-                self._sink(dict(zip(numbers, future.result()[0])))
-            else:
-                self._suspects.extend(numbers)
-        self._engine.restart()

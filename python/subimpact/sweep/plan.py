@@ -19,7 +19,7 @@ from .. import _core
 from .._checks import is_positive, is_whole, seconds
 from .._errors import CaseError, PlanError
 from .._text import is_unicode, read_text
-from .._toml import DEEPEST, flat, is_too_deep
+from .._toml import DEEPEST, flat, has_deep_key
 from ..case import Case, as_case, checked, key_of
 
 Axes = Mapping[Union[str, tuple[str, ...]], Iterable[Any]]
@@ -36,18 +36,16 @@ _SPLIT = "take fewer values, or make several plans of it"
 class Plan:
     """A base case and the values in which the cases of a sweep differ from it.
 
-    Every combination of the values of all axes is a case, those of the last axis changing fastest,
-    times `samples` samples of the numbers that scatter. Cases are numbered from 0.
-
-    An axis is a key with its values, or several keys that change together with tuples of values:
+    Every combination of the values of all axes is a case, those of the last axis changing fastest, times `samples` samples of
+    the numbers that scatter. Cases are numbered from 0. An axis is a key with its values, or several keys that change together:
 
         Plan(case, {"striker.velocity": np.linspace(2, 16, 50),
                     ("beam.width", "beam.thickness"): [(0.016, 0.008), (0.02, 0.01)]})
 
-    With `samples`, each combination is run so many times with numbers that scatter: p exp(s z),
-    with z normal or, with distribution="uniform", uniform from -sqrt(3) to sqrt(3). `scatter` has the relative standard deviations s by key; left out, they are those
-    of the case, its [scatter]. A sample is determined by `seed` and its number, and the same at
-    every combination of the axes. Samples have no [scatter] of their own any more.
+    With `samples`, each combination is run so many times with numbers that scatter: p exp(s z), with z normal or, with
+    distribution="uniform", uniform from -sqrt(3) to sqrt(3). `scatter` has the relative standard deviations s by key; left out,
+    they are those of the case, its [scatter], which samples have no more. A sample is determined by `seed` and its number, and
+    the same at every combination of the axes.
     """
 
     case: Case
@@ -182,13 +180,9 @@ class Plan:
         """The values in which a case differs from the base case."""
         if not 0 <= number < len(self):
             raise IndexError("number of a case")
-        rest, sample = divmod(number, int(self.samples or 1))
-        points = []
-        for keys, of_axis in reversed(self._points):
-            rest, place = divmod(rest, len(of_axis))
-            points.append((keys, of_axis[place]))
-        settings = {key: value for keys, point in reversed(points) for key, value in zip(keys, point)}
-        random = np.random.default_rng((int(self.seed), sample))
+        *places, sample = np.unravel_index(number, [*(len(points) for _, points in self._points), int(self.samples or 1)])
+        settings = {key: value for (keys, points), place in zip(self._points, places) for key, value in zip(keys, points[place])}
+        random = np.random.default_rng((int(self.seed), int(sample)))
         for key, deviation in self._drawn.items():
             draw: Callable[[], float] = random.standard_normal
             if self.distribution == "uniform":
@@ -288,13 +282,12 @@ def _parse(text: str) -> dict[str, Any]:
         import tomllib
     else:
         import tomli as tomllib
-    if is_too_deep(text):
+    if has_deep_key(text):
         raise PlanError(_TOO_DEEP)
     try:
-        tables: dict[str, Any] = tomllib.loads(text)
+        return tomllib.loads(text)
     except ValueError as error:
         raise PlanError(f"is no TOML: {error}") from None
-    return tables
 
 
 _OTHERS = ("samples", "seed", "error_bars", "timeout", "distribution")

@@ -16,12 +16,12 @@ from .._checks import check_progress, is_positive, is_whole, seconds
 from .._errors import PlanError, StoreError
 from .._text import path_text
 from ..case import Case
-from .engines import CallersExecutor, Coordinator, Processes, least_memory, n_cores, run_here
+from .engines import CallersExecutor, Coordinator, Processes, least_memory, n_cores
 from .interruption import Interruption
 from .plan import Axes, Plan
 from .store import FILE, Store
 from .tables import write_hdf5, write_tables
-from .worker import Row, identity_of
+from .worker import Row, identity_of, run_case
 
 _SECONDS_BETWEEN_COMMITS = 0.5
 #: Outcomes that another attempt may change.
@@ -99,24 +99,6 @@ class _Sink:
             self.progress(self.n_done, self.n_all)
 
 
-def _has_equal_cases(plan: Plan) -> bool:
-    settings = [repr(plan.settings(number)) for number in range(len(plan))]
-    return len(set(settings)) < len(settings)
-
-
-def _missing(
-    numbers: Iterable[int], identities: Mapping[int, str], known: Mapping[str, str]
-) -> list[int]:
-    """The cases without a row; of cases of one identity the first."""
-    seen = set(known)
-    missing = []
-    for number in numbers:
-        if identities[number] not in seen:
-            seen.add(identities[number])
-            missing.append(number)
-    return missing
-
-
 def _merge(store: Store, directory: str | os.PathLike[str]) -> None:
     path = Path(path_text(directory, StoreError))
     if path.resolve() == store.directory.resolve():
@@ -177,22 +159,18 @@ def sweep(
 
     case, axes, scatter, samples, seed, error_bars, timeout, distribution
                 what is run: see `Plan`. A Plan may stand in place of the case
-    out         the directory of the results: the store (sweep.rows) and its tables runs.csv and
-                sub_impacts.csv. A sweep that was stopped, by whatever, goes on from there; cases of
-                an earlier plan that the new one has too are not run again. Left out: a temporary
-                directory, which goes with the Sweep
+    out         the directory of the store (sweep.rows) and its tables runs.csv and sub_impacts.csv. What it has is not run
+                again, whatever stopped the sweep or changed the plan. Left out: a temporary directory, which goes with the Sweep
     workers     processes on this machine; by default one per core; 0: none, all runs in this one
     memory      GiB of address space that a worker process may have
-    executor    what runs the cases instead: a client of Dask, an MPIPoolExecutor of mpi4py, or
-                another executor with the interface of `concurrent.futures`
+    executor    what runs the cases instead: a client of Dask, an MPIPoolExecutor of mpi4py, another of `concurrent.futures`
     only        (first, end): a part of the cases, by their numbers from 0
     retry       runs cases again that were timed out, crashed or ran out of memory
     merge       directories of other sweeps, whose rows are taken first
     progress    called with the number of cases that have a row, and of all
 
-    The tables are the same, byte for byte, whatever ran the cases. After Ctrl-C, SIGTERM and SIGHUP
-    (in the main thread, unless the process has handlers of its own) the rows so far are stored and
-    in the tables, and KeyboardInterrupt is raised; its `signal` is the number.
+    The tables are the same, byte for byte, whatever ran the cases. After Ctrl-C, SIGTERM and SIGHUP (in the main thread, unless
+    the process has handlers of its own) they have the rows so far, and KeyboardInterrupt is raised; its `signal` is the number.
     """
     _check(workers, memory, only)
     check_progress(progress)
@@ -216,13 +194,17 @@ def sweep(
         identities: dict[int, str] = {}
         missing = list(numbers)
         # Without rows to go on from, the identities come with the rows: each takes time to find.
-        if store.outcomes or _has_equal_cases(plan):
+        if store.outcomes or len({repr(plan.settings(number)) for number in range(len(plan))}) < len(plan):
             identities = {number: store.identities.get(plan.place(number)) or identity_of(plan, number) for number in range(len(plan))}
-            missing = _missing(numbers, identities, store.outcomes)
+            first: dict[str, int] = {}  # of the cases of one identity
+            for number in numbers:
+                first.setdefault(identities[number], number)
+            missing = [number for identity, number in first.items() if identity not in store.outcomes]
         sink = _Sink(plan, store, identities, len(numbers) - len(missing), len(numbers), progress)
         try:
             if workers == 0 and executor is None:
-                run_here(plan, missing, sink)
+                for number in missing:
+                    sink({number: run_case(plan, number)})
             elif missing:
                 n = min(workers or n_cores(), len(missing))
                 engine: Processes | CallersExecutor = Processes(n, memory) if executor is None else CallersExecutor(executor)

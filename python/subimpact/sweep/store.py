@@ -139,11 +139,9 @@ class Store:
                     yield None
 
     def rows(self) -> Iterator[Row]:
-        """All rows."""
         return filter(None, self.rows_of(list(self._starts)))
 
     def drop(self, outcomes: Sequence[str]) -> None:
-        """Leaves the rows with these outcomes aside."""
         for identity in [identity for identity, outcome in self.outcomes.items() if outcome in outcomes]:
             del self.outcomes[identity], self._starts[identity]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from collections import Counter
 from collections.abc import Mapping
+from contextlib import closing
 from pathlib import Path
 from typing import IO
 
@@ -84,8 +85,7 @@ def write_hdf5(directory: Path) -> Path:
     import h5py
 
     identity = _tables(directory)[0]
-    output = _core.OutputDirectory(str(directory), KIND, SECONDS_OF_THE_DYING, identity)
-    try:
+    with closing(_core.OutputDirectory(str(directory), KIND, SECONDS_OF_THE_DYING, identity)) as output:
         now, tables = _tables(directory)
         if now != identity:
             raise StoreError(f"{directory}: another sweep has written its tables here meanwhile; write those")
@@ -99,8 +99,6 @@ def write_hdf5(directory: Path) -> Path:
         except (OSError, RuntimeError) as error:
             raise _not_written(directory, error) from None
         output.commit()
-    finally:
-        output.close()
     return directory / HDF5
 
 

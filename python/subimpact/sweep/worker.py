@@ -43,7 +43,6 @@ def cell(value: object) -> str:
 
 
 def row_without_result(identity: str, outcome: str, message: str) -> Row:
-    """Of a case that left no result."""
     cells = [""] * (len(COLUMNS) - 1) + [cell(message)]
     return Row(identity, outcome, ",".join(cells), "")
 
@@ -76,7 +75,6 @@ def run_case(plan: Plan, number: int) -> Row:
 
 
 def row_of(identity: str, result: _core.Finished) -> Row:
-    """What is kept of a result."""
     _, _, lines = result.events_csv().partition("\n")
     outcome, cells = result.swept_cells().split(",", 1)
     message = result.message if outcome != "completed" else ""
