@@ -176,7 +176,6 @@ class Player {
     this.view = view;
     this.speed = 1e-4;
     this.playing = false;
-    this.frames = 0;
     this.changed = () => {};
   }
   toggle() { this.playing ? this.pause() : this.play(); }
@@ -194,7 +193,6 @@ class Player {
   }
   frame(now) {
     if (!this.playing) return;
-    ++this.frames;
     const passed = Math.max(0, now - this.last) / 1e3;
     this.last = Math.max(now, this.last);
     this.view.setTime(Math.min(this.view.time + passed * this.speed, this.view.to));

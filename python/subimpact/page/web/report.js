@@ -2,17 +2,9 @@
 // Joins the panels of a page: one time and one part of the strike for all of them.
 
 function addCopyButton() {
-  const button = byId('copy');
-  button.addEventListener('click', async () => {
+  byId('copy').addEventListener('click', ({target: button}) => {
     getSelection().selectAllChildren(byId('toml'));
-    let copied = false;
-    try {
-      await navigator.clipboard.writeText(byId('toml').textContent);
-      copied = true;
-    } catch {  // without leave for the clipboard
-      copied = document.execCommand('copy');
-    }
-    button.textContent = copied ? 'Copied' : 'Selected: copy it with Ctrl+C';
+    button.textContent = document.execCommand('copy') ? 'Copied' : 'Selected: copy it with Ctrl+C';
   });
 }
 
