@@ -143,14 +143,16 @@ auto counterparts_of(const py::array& base, const py::array& other) {
   return std::pair(of, found.follows_new_one);
 }
 
-// The margins in another run of the near misses of a run, as far as both have the same sub-impacts.
+// The margins in another run of the near misses of a run, as far as both have the same sub-impacts;
+// NaN of the others.
 std::vector<double> matched_margins(const Finished& run, const Finished& other) {
   const std::size_t n =
       n_leading_matches(match_sub_impacts(run.result.sub_impacts, other.result.sub_impacts));
-  std::vector<double> margins;
-  for (const std::optional<std::size_t>& there : match_near_misses(run.result, other.result, n)) {
-    margins.push_back(there ? other.result.near_misses[*there].margin
-                            : std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> margins(run.result.near_misses.size(),
+                              std::numeric_limits<double>::quiet_NaN());
+  const auto matches = match_near_misses(run.result, other.result, n);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i]) margins[i] = other.result.near_misses[*matches[i]].margin;
   }
   return margins;
 }

@@ -236,17 +236,12 @@ def _derive_near_misses(study: Sensitivity, runs: list[_core.Finished]) -> None:
     """Margins of near misses; flags sub-impacts that one makes uncertain which the shifts nearly reach."""
     misses, base = study.base.summary["near_misses"], study.run
     smooth = study.base.summary["counts"]["yielded_sections"] == 0
-    margins = np.full((len(runs), len(misses)), np.nan)
-    for row, run in zip(margins, runs):
-        found = _core.matched_margins(base, run)
-        row[:len(found)] = found
-    margins = margins.reshape(len(study.keys), _RUNS_PER_KEY, len(misses))
+    margins = np.array([_core.matched_margins(base, run) for run in runs]).reshape(len(study.keys), _RUNS_PER_KEY, len(misses))
     for i, miss in enumerate(misses):
         here, moved = np.array(miss["margin_m"]), margins[:, :, i]
         value, error = _derived(here, moved, _noise(_differences(here, moved)[1]), smooth)
-        study.near_misses.append((_core.first_in_doubt(base, i), value, error))
-    for (first, value, _), miss in zip(study.near_misses, misses):
-        change = np.nan_to_num(np.abs(value)) * SHIFTS[0]
+        first, change = _core.first_in_doubt(base, i), np.nan_to_num(np.abs(value)) * SHIFTS[0]
+        study.near_misses.append((first, value, error))
         for k in np.flatnonzero(_GRAZE * change >= miss["margin_m"]):
             if first < len(study.flags):
                 study.flags[first] = [flag or f"a near miss is within the shifts of {study.keys[k]}" for flag in study.flags[first]]

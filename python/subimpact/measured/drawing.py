@@ -44,7 +44,7 @@ def _line(axes: Any, quantity: str, times: Numbers, forces: Numbers, begin: floa
 
 
 @figure("a", height=3.2)
-def draw_signal(signal: Any, axes: Any) -> None:
+def draw_signal(signal: Any, axes: Any = None) -> Any:
     """A measured force, or a strain, on its own time: a Signal."""
     t, f = signal.times, signal.forces
     _line(axes, signal.quantity, t, f, float(t[0]), float(t[-1]), float(np.abs(f).max()), color=COLOURS[1])
@@ -52,7 +52,7 @@ def draw_signal(signal: Any, axes: Any) -> None:
 
 
 @figure("a", height=3.2)
-def draw_forces(a: Any, axes: Any, begin: float | None = None, end: float | None = None, **options: Any) -> None:
+def draw_forces(a: Any, axes: Any = None, begin: float | None = None, end: float | None = None, **options: Any) -> Any:
     """The measured force and the computed one of an Alignment on the time of the run."""
     part = (a.begin if begin is None else begin, a.end if end is None else end, max(abs(a.computed.peak), abs(a.measured.peak)))
     label = "computed" if a.low_pass is None else "computed, as the transducer shows it"
@@ -62,7 +62,7 @@ def draw_forces(a: Any, axes: Any, begin: float | None = None, end: float | None
 
 
 @figure([["forces"], ["difference"], ["near"]], height=7.4, height_ratios=[2, 1, 2])
-def draw_all(a: Any, axes: Any) -> None:
+def draw_all(a: Any, axes: Any = None) -> Any:
     """The measured force and the computed one on the time of the run, their difference (computed less measured), and both
     about the largest force."""
     draw_forces(a, axes[0])

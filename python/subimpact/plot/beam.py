@@ -34,7 +34,7 @@ def _panels(result: Result) -> tuple[Any, dict[str, Any]]:
 
 
 @figure(_panels)
-def bending(result: Result, axes: Any) -> None:
+def bending(result: Result, axes: Any = None) -> Any:
     """Bending moment against curvature of the sections kept over the whole run, in units of first yield
     where the beam can yield. Dots: end of the run."""
     table, n = _sections(result), len(result["output.sections"])
@@ -62,7 +62,7 @@ def _along_beam(result: Result, table: Any) -> Any:
 
 
 @figure([[0], [1]], height=5.6, sharex=True)
-def shapes(result: Result, axes: Any) -> None:
+def shapes(result: Result, axes: Any = None) -> Any:
     """Displacement and bending moment along the whole beam at some instants of the run, from dark to
     light."""
     table = _along_beam(result, result.shapes)
@@ -86,7 +86,7 @@ def shapes(result: Result, axes: Any) -> None:
 
 
 @figure([[0], [1], [2]], height=7.2, sharex=True)
-def envelope(result: Result, axes: Any) -> None:
+def envelope(result: Result, axes: Any = None) -> Any:
     """Envelope of the run along the beam: largest and smallest bending moment (dashed: first yield),
     strain of the outer fibre (cut off at six times first yield) and displacement; of a beam that has
     yielded, in its place the permanent set, its displacement at rest against its supports, of a free one
@@ -128,7 +128,7 @@ def envelope(result: Result, axes: Any) -> None:
 
 
 @figure([[0], [1], [2]], height=6.4, sharex=True)
-def strikes(result: Result, axes: Any) -> None:
+def strikes(result: Result, axes: Any = None) -> Any:
     """Strike after strike, at the end of each: restitution; dent and permanent set of all strikes so far;
     energy that the strike has dissipated in bending and in the contact. Bars: errors, where they are
     known, cut off where they are larger than the values."""

@@ -16,7 +16,7 @@ _LINES = ("-", "--", "-.", ":")
 
 
 @figure([[0], [1], [2], [3]], height=8.6, sharex=True)
-def comparison(several: Mapping[str, Result], axes: Any) -> None:
+def comparison(several: Mapping[str, Result], axes: Any = None) -> Any:
     """Contact force, deflection of the struck point, velocity of the striker and elastic energy of bending of each run over time.
     Shaded: sub-impacts of the first run."""
     drawn = {name: result for name, result in several.items() if len(result.history)}

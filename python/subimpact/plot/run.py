@@ -35,7 +35,7 @@ def _shade(axes: Any, result: Result, scale: float) -> None:
 
 
 @figure([[0]], height=2.8)
-def force(result: Result, axes: Any) -> None:
+def force(result: Result, axes: Any = None) -> Any:
     """Contact force over time. Shaded: sub-impacts, hatched where they are not certain."""
     history = _history(result)
     time_unit, t = unit("time", result.time)
@@ -49,7 +49,7 @@ def force(result: Result, axes: Any) -> None:
 
 
 @figure([[0]], height=2.8)
-def gauges(result: Result, axes: Any) -> None:
+def gauges(result: Result, axes: Any = None) -> Any:
     """Strain of every gauge over time, positive in tension. Shaded: sub-impacts, hatched where they are not certain."""
     history = _history(result)
     places = present(result["output.gauges"], "the run has no gauge; run it again with output.gauges, such as "
@@ -64,7 +64,7 @@ def gauges(result: Result, axes: Any) -> None:
 
 
 @figure([[0], [1]], height=5.2, sharex=True)
-def response(result: Result, axes: Any) -> None:
+def response(result: Result, axes: Any = None) -> Any:
     """Contact force and displacements over the strike: w_c of the struck point, w_m of the striker or
     stop, f_c = w_c − w(0) the beam's deflection at the struck point. Shaded: sub-impacts, hatched where
     they are not certain."""
@@ -84,7 +84,7 @@ def response(result: Result, axes: Any) -> None:
 
 
 @figure([[0], [1]], height=5.0, sharex=True)
-def first_sub_impact(result: Result, axes: Any) -> None:
+def first_sub_impact(result: Result, axes: Any = None) -> Any:
     """Contact force, and stress in the outermost fibre behind the struck point, in the first sub-impact
     (shaded). Broken lines: the yield stress and the instant at which a fibre of the beam first yields."""
     history = _history(result)
@@ -133,7 +133,7 @@ def _with_insets(result: Result) -> tuple[Any, dict[str, Any]]:
 
 
 @figure(_with_insets, height=4.4)
-def indentation(result: Result, axes: Any) -> None:
+def indentation(result: Result, axes: Any = None) -> Any:
     """Contact force against indentation: the whole strike, with the first yield of the contact (A) and
     the beginning of unloading (B) in the first sub-impact; beside it the later sub-impacts, three at
     most, that deepen the dent most."""
@@ -172,7 +172,7 @@ def indentation(result: Result, axes: Any) -> None:
 
 
 @figure([[0], [1], [2]], height=6.2, sharex=True, gridspec_kw={"height_ratios": [0.22, 1, 0.75]})
-def energies(result: Result, axes: Any) -> None:
+def energies(result: Result, axes: Any = None) -> Any:
     """Energies, and the motion of striker or stop (u_mf = w_m − w(0)) and struck point (f_c = w_c − w(0))
     relative to the beam's end. Above: zones, sub-zones and sub-impacts, pale where they are not certain;
     zones are shaded."""
@@ -240,7 +240,7 @@ def _widths(result: Result) -> Any:
 
 
 @figure(_columns, height=5.0)
-def timeline(result: Result, axes: Any) -> None:
+def timeline(result: Result, axes: Any = None) -> Any:
     """Every sub-impact at the time it begins: duration and impulse, on logarithmic axes; numbers count
     the sub-impacts. Pale with open circles: not certain. Black bars: numerical errors of those that are
     certain."""

@@ -39,7 +39,7 @@ def _one_per_label(table: Table) -> tuple[Any, dict[str, Any]]:
 
 
 @figure(_one_per_label)
-def work_precision(points: Table, axes: Any, cost: str = "wall_s") -> None:
+def work_precision(points: Table, axes: Any = None, cost: str = "wall_s") -> Any:
     """Cost against the largest error of an event time, with error control (solid) and at fixed steps (dashed, with the
     order observed last). Filled: every sub-impact found; hollow: below the error of the reference (grey), which alone is
     known; crosses: a sub-impact lost or invented, the error at least its duration; crosses at the right: unstable, or gave up."""
@@ -82,7 +82,7 @@ def work_precision(points: Table, axes: Any, cost: str = "wall_s") -> None:
 
 
 @figure([[0]], height=3.8)
-def differences(matches: Table, axes: Any, reference_error: float = 0.0) -> None:
+def differences(matches: Table, axes: Any = None, reference_error: float = 0.0) -> Any:
     """How far starts (filled) and ends (hollow) of sub-impacts by each method lie from those of the reference, whose error
     is grey. Crosses at the top: sub-impacts that the method lacks, or has alone."""
     methods = _unique(matches["method"])
@@ -100,7 +100,7 @@ def differences(matches: Table, axes: Any, reference_error: float = 0.0) -> None
 
 
 @figure([[0]], height=4.4)
-def sensitivity(table: Table, axes: Any) -> None:
+def sensitivity(table: Table, axes: Any = None) -> Any:
     """Changes of starts and ends of sub-impacts per 1 % more of each key, with their errors; the first touch has none."""
     keys = [name[2:] for name in getattr(getattr(table, "dtype", None), "names", None) or table if name.startswith("d_")]
     times = np.isin(table["quantity"], ("start_s", "end_s")) & (table["value"] > 0)
@@ -114,7 +114,7 @@ def sensitivity(table: Table, axes: Any) -> None:
 
 
 @figure([[0, 1]], height=3.8)
-def outcomes(table: Table, axes: Any) -> None:
+def outcomes(table: Table, axes: Any = None) -> Any:
     """How runs come out, by method and by step or tolerance."""
     for panel, group in zip(axes, ("fixed step", "tolerance")):
         of_group = table["group"] == group

@@ -81,14 +81,13 @@ def style() -> AbstractContextManager[None]:
 
 
 def figure(mosaic: Any, height: float = 4.6, **options: Any) -> Callable[[Draw], Callable[..., Any]]:
-    """Makes `draw(source, axes, ...)`, which draws into one panel or a list of them, a function that
+    """Makes `draw(source, axes, ...)`, which draws into one panel or a list of them and returns nothing, a function that
     makes these in a figure of its own where `axes` is None, and returns them. `mosaic`: the panels
     as Matplotlib's subplot_mosaic takes them, or a function of the source that returns them and
     other options of that function."""
 
     def of(draw: Draw) -> Callable[..., Any]:
-        signature = inspect.signature(draw)
-        takes = next(iter(signature.parameters))
+        takes = next(iter(inspect.signature(draw).parameters))
 
         @functools.wraps(draw)
         def drawn(source: Any, axes: Any = None, *more: Any, **named: Any) -> Any:
@@ -115,8 +114,6 @@ def figure(mosaic: Any, height: float = 4.6, **options: Any) -> Callable[[Draw],
                     made.suptitle("\n".join(marks))
             return axes
 
-        optional = [each.replace(default=None) if name == "axes" else each for name, each in signature.parameters.items()]
-        drawn.__signature__ = signature.replace(parameters=optional, return_annotation="Any")  # type: ignore[attr-defined]
         return drawn
 
     return of

@@ -84,7 +84,7 @@ def _grid(runs: Table) -> tuple[str, str]:
 
 
 @figure([[0]], height=5.0)
-def sweep_map(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
+def sweep_map(runs: Table, axes: Any = None, column: str = "n_sub_impacts") -> Any:
     """A number of each run over the two keys that the sweep varies; of several runs in a cell the mean.
     Hatched: a count that is not certain, a number with an error that is above a tenth of it or not known, a run with
     warnings. Grey: no run, or one that did not complete."""
@@ -144,7 +144,7 @@ def _write_numbers(axes: Any, mesh: Any, cells: Any) -> None:
 
 
 @figure([[0]], height=3.4)
-def histogram(runs: Table, axes: Any, column: str = "n_sub_impacts") -> None:
+def histogram(runs: Table, axes: Any = None, column: str = "n_sub_impacts") -> Any:
     """How a number is distributed over the runs. Line: the mean; shaded: from the 5 % to the 95 % quantile;
     dotted: the median."""
     label, factor = _name_and_unit(column)
@@ -172,7 +172,7 @@ def _chief(runs: Table) -> Sequence[str]:
 
 
 @figure(lambda runs: grid_of(len(_chief(runs)), min(len(_chief(runs)), 2), 2.4))
-def histograms(runs: Table, axes: Any) -> None:
+def histograms(runs: Table, axes: Any = None) -> Any:
     """How the chief numbers are distributed over the runs. Line: the mean; shaded: from the 5 %
     to the 95 % quantile; dotted: the median."""
     for panel, column in zip(np.ravel(axes), _chief(runs)):

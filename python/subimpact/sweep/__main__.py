@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import re
 import signal
 import sys
 from collections.abc import Sequence
@@ -27,22 +28,19 @@ exit status: 0 done; 2 bad command line, plan, case or directory; 3 cases are mi
 most did not complete, or files cannot be written; 130, 143, 129 stopped by Ctrl-C, SIGTERM, SIGHUP, with all rows so far
 stored and in the tables. A sweep that was stopped goes on where it was: give the same command again."""
 
-_MOST_DIGITS = 18
-
 
 def _say(text: str) -> None:
     say(f"subimpact-sweep: {text}")
 
 
 def _part(text: str) -> tuple[int, int]:
-    first, colon, end = text.partition(":")
-    is_pair = all(part == "" or part.isdecimal() and len(part) <= _MOST_DIGITS for part in (first, end))
-    part = (int(first or 0), int(end) if end else sys.maxsize) if is_pair else (0, 0)
-    if not colon or part[0] >= part[1]:
+    pair = re.fullmatch(r"(\d{0,18}):(\d{0,18})", text)
+    first, end = (int(pair[1] or 0), int(pair[2] or sys.maxsize)) if pair else (0, 0)
+    if first >= end:
         raise argparse.ArgumentTypeError(
             f"is {text!r}; allowed: a number from 0 and a larger one, such as 0:1000"
         )
-    return part
+    return first, end
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -9,7 +9,6 @@ function colour(name) {
   }
   return colours.get(name);
 }
-function forgetColours() { colours.clear(); }
 
 // 1, 2 or 5 times a power of ten, nearest above.
 function roundSpacing(raw) {

@@ -150,15 +150,11 @@ class Loop {
     yielding: {colour: 'line2', name: 'yielding', width: 3},
   };
 
-  shown({rows}) {
-    const {from, to} = this.view;
-    return rows.filter((i) => this.strike.times[i] >= from && this.strike.times[i] <= to);
-  }
-
   drawPart() {
-    const {strike} = this, unit = strike.unitOfForce();
+    const {strike, view: {from, to}} = this, unit = strike.unitOfForce();
     const mm = (i) => 1e3 * strike.history.indentation_m[i], newton = (i) => unit.per_newton * strike.history.force_N[i];
-    const visible = this.pieces.map((piece) => ({...piece, rows: this.shown(piece)})).filter((p) => p.rows.length > 1);
+    const isShown = (i) => strike.times[i] >= from && strike.times[i] <= to;
+    const visible = this.pieces.map(({branch, rows}) => ({branch, rows: rows.filter(isShown)})).filter((p) => p.rows.length > 1);
     let low = Infinity, high = 0, most = 0;
     for (const i of visible.flatMap(({rows}) => rows)) {
       [low, high, most] = [Math.min(low, mm(i)), Math.max(high, mm(i)), Math.max(most, newton(i))];
@@ -240,7 +236,11 @@ class Timeline {
                                       height: `${axes.bottom - axes.top}px`});
     axes.frame();
     axes.inside(() => {
-      for (const {time, error} of this.marks) this.drawError(axes, axes.toX(time * unit.per_second), 1e6 * error);
+      for (const {time, error} of this.marks) {
+        if (!(1e6 * error > axes.y.range[0])) continue;
+        const x = axes.toX(time * unit.per_second);
+        axes.line([[x, axes.bottom], [x, axes.toY(1e6 * error)]], {colour: colour('text'), width: 3});
+      }
       for (const {kind, time, value, certain} of this.marks) {
         this.drawMark(axes, kind, axes.toX(time * unit.per_second), axes.toY(1e6 * value), certain);
       }
@@ -254,10 +254,6 @@ class Timeline {
     const values = this.marks.map(({value}) => 1e6 * value).filter((value) => value > 0);
     const least = values.reduce((low, value) => Math.min(low, value), Infinity) / 1e3;
     return [...values, ...this.marks.map(({error}) => 1e6 * error).filter((error) => error > least)];
-  }
-
-  drawError(axes, x, error) {
-    if (error > axes.y.range[0]) axes.line([[x, axes.bottom], [x, axes.toY(error)]], {colour: colour('text'), width: 3});
   }
 
   drawMark(axes, kind, x, y, isFilled) {
@@ -314,7 +310,7 @@ function addThemeButton(restyle) {
   const media = {auto: byId('dark').media, light: 'not all', dark: 'screen'};
   const names = Object.keys(media);
   const repaint = () => {
-    forgetColours();
+    colours.clear();
     restyle();
   };
   const button = byId('theme');
