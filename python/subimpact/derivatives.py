@@ -187,10 +187,9 @@ def _derived(base: Numbers, runs: Numbers, error: Numbers, smooth: bool) -> tupl
 
 
 def _upper_median(values: Numbers) -> Numbers:
-    """Over the first axis, NaN left out; 0 of none."""
+    """Over the first axis, NaN left out; 0 of nothing else."""
     n = np.isfinite(values).sum(axis=0)
-    middle = np.take_along_axis(np.sort(values, axis=0), (n // 2)[None], axis=0)[0] if len(values) else 0.0 * n
-    return np.where(n > 0, np.nan_to_num(middle), 0.0)
+    return np.nan_to_num(np.take_along_axis(np.sort(values, axis=0), (n // 2)[None], axis=0)[0])
 
 
 def _derive(study: Sensitivity, check: Table, share: float, runs: list[Table]) -> None:
@@ -208,7 +207,7 @@ def _derive(study: Sensitivity, check: Table, share: float, runs: list[Table]) -
     # Numbers of the beam change its matrices, whose rounding adds to the errors: keys like this one show its errors.
     of_beam = np.array([key.startswith("beam.") for key in keys])
     error = np.empty((n, *study.values.shape))
-    for kind in (True, False):
+    for kind in np.unique(of_beam):
         error[of_beam == kind] = np.maximum(_upper_median(_noise(bends)[of_beam == kind]), check_error)
     beside = np.pad(error, ((0, 0), (1, 1), (0, 0)))
     error = np.maximum(np.maximum(beside[:, :-2], beside[:, 2:]), error)

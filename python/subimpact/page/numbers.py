@@ -63,11 +63,9 @@ def history(files: Files, n_rows: int) -> tuple[dict[str, Any], int]:
     """The columns of history.csv, and how many rows they have; none of a run that kept none."""
     rows = files.lines("history.csv")
     heading: Row = next(rows, [])
-    columns = list(zip(*thinned(rows, n_rows)))
-    if not columns:
-        return {}, 0
+    kept = list(thinned(rows, n_rows))
     return {name: packed("f64" if name == "time_s" else "f32", [float(cell or "nan") for cell in cells])
-            for name, cells in zip(heading, columns)}, len(columns[0])
+            for name, cells in zip(heading, zip(*kept))}, len(kept)
 
 
 def _every_nth(n: int, most: int) -> list[int]:

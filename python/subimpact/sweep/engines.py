@@ -1,9 +1,6 @@
-"""Hands cases out to workers and takes their rows back.
-
-A worker is whatever an executor with the interface of `concurrent.futures` runs tasks in. A task is
-a chunk of cases. If a worker dies, every case that was in the hands of its engine is run again
-alone; one that ends its worker three times is a row with the outcome "crashed".
-"""
+"""Hands chunks of cases out to the workers of an executor, in the sense of `concurrent.futures`, and takes their rows back. If a
+worker dies, every case that was in the hands of its engine is run again alone; one that ends its worker three times is a row
+with the outcome "crashed"."""
 
 from __future__ import annotations
 

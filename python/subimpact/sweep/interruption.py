@@ -17,9 +17,8 @@ class Interrupted(KeyboardInterrupt):
 
 
 class Interruption:
-    """Makes SIGTERM and SIGHUP act like Ctrl-C while it is entered, in the main thread, unless the
-    process handles or ignores them itself. Raises Interrupted at its end. While a first signal is
-    obeyed, others are not. After `hold` they, and Ctrl-C, wait for the end."""
+    """Makes SIGTERM and SIGHUP act like Ctrl-C while it is entered, in the main thread, unless the process handles or ignores them
+    itself. Raises Interrupted at its end. While a first signal is obeyed, others are not. After `hold` all wait for the end."""
 
     def __init__(self) -> None:
         self._before: dict[int, Any] = {}

@@ -1,9 +1,6 @@
-"""Where the rows of a sweep are kept: one file, to which one process adds lines.
-
-A line is a row as JSON, after its checksum. A row is there whole or not at all, whenever the process or
-the machine stops: the next one writes over a last line without an end. Damaged lines are left aside, and
-their cases run again.
-"""
+"""Where the rows of a sweep are kept: one file, to which one process adds lines. A line is a row as JSON, after its checksum. A
+row is there whole or not at all, whenever the process or the machine stops: the next one writes over a last line without an end.
+Damaged lines are left aside, and their cases run again."""
 
 from __future__ import annotations
 

@@ -44,11 +44,8 @@ function logTicks(from, to) {
 
 // A range of a logarithmic axis that ends at ticks, two at least.
 function logRange(values) {
-  const positive = values.filter((value) => value > 0);
-  if (positive.length === 0) return [0.1, 10];
-  let [low, high] = [Infinity, 0];  // of more values than a function may have arguments
-  for (const value of positive) [low, high] = [Math.min(low, value), Math.max(high, value)];
-  return [roundSpacing(low / 3), roundSpacing(1.6 * high)];
+  const positive = values.filter((value) => value > 0).sort((a, b) => a - b);
+  return positive.length === 0 ? [0.1, 10] : [roundSpacing(positive[0] / 3), roundSpacing(1.6 * positive.at(-1))];
 }
 
 class Axes {
