@@ -19,7 +19,6 @@ from ._errors import CaseError
 from ._runs import Runs
 from .case import Case, as_case
 from .derivatives import END, FORCE, START, VELOCITY, Sensitivity, study_of, write_table
-from .result import Result
 from .sweep.plan import Plan
 
 if TYPE_CHECKING:

@@ -138,8 +138,7 @@ class CallersExecutor:
 
 def _is_death(error: BaseException) -> bool:
     """Whether a worker was lost, as each library reports it, or could not even begin."""
-    is_of_python = isinstance(error, (BrokenExecutor, MemoryError))
-    return is_of_python or type(error).__name__ in ("KilledWorker", "CommClosedError")
+    return isinstance(error, (BrokenExecutor, MemoryError)) or type(error).__name__ in ("KilledWorker", "CommClosedError")
 
 
 class Coordinator:

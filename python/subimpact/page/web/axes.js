@@ -149,4 +149,9 @@ class Axes {
       x += width + 21 + this.draw.measureText(words).width;
     }
   }
+
+  // The same of lines: [words, style].
+  lineKey(entries, y) {
+    this.key(entries.map(([words, style]) => [words, 26, (x) => this.line([[x, y], [x + 26, y]], style)]), y);
+  }
 }

@@ -23,6 +23,13 @@ function countUpTo(ascending, x) {
   return low;
 }
 
+// The y at an x of a line through points, x ascending: straight between them, constant outside, the later of two at one x.
+function interpolated(xs, ys, x) {
+  const k = countUpTo(xs, x);
+  if (k === 0 || k === xs.length) return ys[Math.max(k - 1, 0)];
+  return ys[k - 1] + (x - xs[k - 1]) / (xs[k] - xs[k - 1]) * (ys[k] - ys[k - 1]);
+}
+
 // A number as it is set in print: significant digits, a minus sign.
 function printed(x, digits = 4) {
   if (!Number.isFinite(x)) return '–';
@@ -57,15 +64,8 @@ class Strike {
   get hasHistory() { return this.times.length > 0; }
   get hasShapes() { return Boolean(this.shapes); }
 
-  // A column of the history at a time (s): straight between rows, the later of two rows at an event.
-  at(name, time) {
-    const values = this.history[name];
-    const k = countUpTo(this.times, time) - 1;
-    if (k < 0) return values[0];
-    if (k + 1 >= values.length) return values[values.length - 1];
-    const share = (time - this.times[k]) / (this.times[k + 1] - this.times[k]);
-    return values[k] + share * (values[k + 1] - values[k]);
-  }
+  // A column of the history at a time (s).
+  at(name, time) { return interpolated(this.times, this.history[name], time); }
 
   // The fields along the beam at a time (s), straight between stored shapes.
   shapeAt(time) {

@@ -146,8 +146,8 @@ class Loop {
   }
 
   static branchStyle = {
-    elastic: {colour: 'line1', name: 'elastic (loading, unloading)', width: 1.3},
-    yielding: {colour: 'line2', name: 'yielding', width: 3},
+    elastic: {name: 'line1', words: 'elastic (loading, unloading)', width: 1.3},
+    yielding: {name: 'line2', words: 'yielding', width: 3},
   };
 
   drawPart() {
@@ -169,20 +169,13 @@ class Loop {
     axes.frame();
     axes.inside(() => {
       for (const {branch, rows} of visible) {
-        const {colour: name, width} = Loop.branchStyle[branch];
+        const {name, width} = Loop.branchStyle[branch];
         axes.line(rows.map((i) => [axes.toX(mm(i)), axes.toY(newton(i))]), {colour: colour(name), width});
       }
     });
-    this.drawKey(axes);
+    Object.values(Loop.branchStyle).forEach(({name, words, width}, i) =>
+      axes.lineKey([[words, {colour: colour(name), width}]], axes.top + 8 + 18 * i));
     this.drawTime();
-  }
-
-  drawKey(axes) {
-    Object.values(Loop.branchStyle).forEach(({colour: name, name: words, width}, i) => {
-      const y = axes.top + 8 + 18 * i;
-      axes.line([[axes.left + 10, y], [axes.left + 36, y]], {colour: colour(name), width});
-      axes.text(words, axes.left + 42, y);
-    });
   }
 
   drawTime() {
@@ -289,20 +282,17 @@ function drawAlongBeam(strike, canvas, {lines, label, zones = []}) {
   const axes = new Axes(canvas, {
     x: {range: [0, strike.length], label: 'position along the beam, m'},
     y: {range: [least - margin, most + margin], label}, top: 22});
+  const styles = lineStyles.map(({colour: name, dash}) => ({colour: colour(name), width: 1.8, dash}));
   axes.frame();
   axes.inside((draw) => {
     draw.fillStyle = colour('band');
     for (const {from, to} of zones) {
       draw.fillRect(axes.toX(from), axes.top, Math.max(1, axes.toX(to) - axes.toX(from)), axes.bottom - axes.top);
     }
-    lines.forEach(({values}, k) => {
-      const {colour: name, dash} = lineStyles[k];
-      axes.line(strike.envelope.positions.map((x, i) => [axes.toX(x), axes.toY(values[i])]),
-                {colour: colour(name), width: 1.8, dash: dash ?? []});
-    });
+    lines.forEach(({values}, k) =>
+      axes.line(strike.envelope.positions.map((x, i) => [axes.toX(x), axes.toY(values[i])]), styles[k]));
   });
-  axes.key(lines.map(({name}, k) => [name, 26, (x, y) => axes.line(
-    [[x, y], [x + 26, y]], {colour: colour(lineStyles[k].colour), width: 1.8, dash: lineStyles[k].dash ?? []})]), 10);
+  axes.lineKey(lines.map(({name}, k) => [name, styles[k]]), 10);
 }
 
 // Light, dark or as the system is. `restyle` draws in the new colours.

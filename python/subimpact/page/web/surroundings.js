@@ -1,15 +1,8 @@
 'use strict';
 // What acts on the beam besides the striker: springs and bedding from the ground, loads as arrows.
 
-// The y of a line of points [x, y], x ascending, at an x: straight between points, constant outside.
-// The beam's axis on the canvas is such a line, and so is a force over time.
-function heightAt(points, x) {
-  const after = points.findIndex((point) => point[0] > x);
-  if (after < 0) return points[points.length - 1][1];
-  if (after === 0) return points[0][1];
-  const [[x0, y0], [x1, y1]] = [points[after - 1], points[after]];
-  return y0 + (y1 - y0) * (x - x0) / (x1 - x0);
-}
+// Of points [x, y], such as the beam's axis on the canvas or a force over time.
+function heightAt(points, x) { return interpolated(points.map((point) => point[0]), points.map((point) => point[1]), x); }
 
 function drawGround(axes, strike, points, thick) {
   const springs = strike.springs.filter((spring) => !spring.one_sided);
