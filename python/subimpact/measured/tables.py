@@ -6,7 +6,7 @@ import codecs
 import csv
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from decimal import Decimal
 from itertools import islice
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -314,16 +314,16 @@ class Table:
 
     def numbers(self, wanted: list[int]) -> Numbers:
         """The numbers of some columns, a row per row; NaN where there is none."""
-        lines, *columns = zip(*((line, *(cells[j] if j < len(cells) else "" for j in wanted)) for line, cells in self._rows_of_cells()))
-        return np.column_stack([self._numbers_of(cells, lines, j) for cells, j in zip(columns, wanted)])
+        return np.column_stack([self._numbers_of(column) for column in wanted])
 
-    def _numbers_of(self, cells: Sequence[str], lines: Sequence[int], column: int) -> Numbers:
-        if self.decimal == "." and not any("_" in cell for cell in cells):
+    def _numbers_of(self, column: int) -> Numbers:
+        rows = [(line, cells[column] if column < len(cells) else "") for line, cells in self._rows_of_cells()]
+        if self.decimal == "." and not any("_" in cell for _, cell in rows):
             try:
-                return np.array([cell or "nan" for cell in cells], float)
+                return np.array([cell or "nan" for _, cell in rows], float)
             except ValueError:  # words in place of numbers, thousands, or a cell that is to be refused
                 pass
-        return np.array([float(self._number(cell, line, column)) for cell, line in zip(cells, lines)])
+        return np.array([float(self._number(cell, line, column)) for line, cell in rows])
 
     def line_of(self, row: int) -> int:
         """The number of the line of a row of `numbers`."""

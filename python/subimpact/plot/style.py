@@ -148,8 +148,7 @@ _UNITS: Mapping[str, tuple[tuple[float, str, float], ...]] = {
 def unit(quantity: str, *values: Any) -> tuple[str, float]:
     """The unit that suits the largest of these values in SI units, and its number per SI unit."""
     largest = max((np.nanmax(np.abs(v), initial=0.0) for v in values), default=0.0)
-    name, factor = next((name, factor) for least, name, factor in _UNITS[quantity] if largest >= least)
-    return name, factor
+    return next((name, factor) for least, name, factor in _UNITS[quantity] if largest >= least)
 
 
 def legend_above(axes: Any, handles: Any = None, columns: int = 8) -> None:
