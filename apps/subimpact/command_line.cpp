@@ -7,7 +7,6 @@
 #include <optional>
 #include <ranges>
 
-#include "case/keys/slips.h"
 #include "commands.h"
 #include "io/printable.h"
 #include "subimpact/io/results.h"

@@ -8,7 +8,6 @@
 #include "case/keys/units.h"
 #include "io/printable.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/report/text.h"
 #include "subimpact/study/judgement/event_errors.h"
 #include "subimpact/study/model.h"
 

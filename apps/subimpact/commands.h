@@ -4,12 +4,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "command_line.h"
 #include "progress.h"
@@ -26,8 +20,7 @@ enum ExitStatus : int {
   failed = 3    ///< the solver failed, or its results could not be written
 };
 
-/// Prints a text without control characters, for it may come from files, paths and arguments. A
-/// failure is left to the stream: main() checks stdout once.
+/// Prints a text without control characters. A failure is left to the stream: main() checks stdout.
 void print_to(std::FILE* stream, const std::string& text);
 
 template <class... Args>
@@ -84,13 +77,13 @@ auto with_places(const LoadedCase& loaded, Body body) {
   }
 }
 
-/// Prints on stderr which of the keys given have no effect, unless `quiet`, and which values are
-/// doubtful, which it returns.
+/// Prints which of the keys given have no effect, unless `quiet`, and which values are doubtful,
+/// which it returns.
 std::vector<std::string> print_doubts(const LoadedCase& loaded, bool quiet = false);
 void print_warnings(const std::vector<std::string>& warnings);
 
-/// Writes files and puts them in place, once their content has been printed: without room for them
-/// it is not lost. False, with a message, if they cannot be written.
+/// Writes files and puts them in place, once their content has been printed. False, with a message,
+/// if they cannot be written.
 bool write_after_printing(OutputDirectory& directory,
                           const std::function<void(const std::filesystem::path&)>& write);
 
@@ -138,11 +131,8 @@ Command new_command(), run_command(), compare_command(), work_precision_command(
 std::vector<Command> python_commands(), listing_commands();
 
 /// Runs a module of Python's package subimpact with these arguments, its streams being those of the
-/// program, and returns its exit status: 128 and the number of a signal that ended it. The
-/// interpreter is that of the environment variable SUBIMPACT_PYTHON_EXECUTABLE, else the one that
-/// CMake found; the package is that of the build tree or the installation of the program, else what
-/// the interpreter has. Where a module is missing, one line on stderr says what to install, and the
-/// status is `refused`.
+/// program, and returns its exit status: 128 and the number of a signal that ended it. Where a
+/// module is missing, one line on stderr says what to install, and the status is `refused`.
 int run_python(const std::string& module, const std::vector<std::string>& arguments);
 
 }  // namespace subimpact::app

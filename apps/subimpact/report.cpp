@@ -17,12 +17,8 @@ struct FinishedRunOptions {
   std::vector<std::string> how_measured;  // one a row of `measured_options`
 };
 
-struct PassedOption {
-  const char *name, *meaning;
-};
-
-// Of subimpact.measured, which checks the values.
-constexpr PassedOption measured_options[] = {
+// Of subimpact.measured, which checks the values: names and meanings.
+constexpr std::pair<const char*, const char*> measured_options[] = {
     {"--shift", "How much later the measured time is: -12.5us. Default: found"},
     {"--low-pass", "Cut-off of the transducer, 20kHz or \"find\". Default: no filter"},
     {"--gain", "Measured over true force, or \"find\". Default: 1"},
@@ -44,7 +40,7 @@ int compare_with_measured(const FinishedRunOptions& options, const fs::path& dir
                                         "--out=" + directory.string()};
   for (std::size_t i = 0; i < std::size(measured_options); ++i) {
     const std::string& value = options.how_measured[i];
-    if (!value.empty()) arguments.push_back(std::string(measured_options[i].name) + '=' + value);
+    if (!value.empty()) arguments.push_back(std::string(measured_options[i].first) + '=' + value);
   }
   arguments.insert(arguments.end(), {"--", options.runs.front()});
   return run_python("subimpact.measured", arguments);

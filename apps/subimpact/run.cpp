@@ -89,16 +89,6 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
   return run_as_asked(loaded.value, loaded.given, std::move(request));
 }
 
-// Writes the results; returns why they could not be written.
-std::string write(ResultWriter& files, const Case& input, const Result& result) {
-  try {
-    files.finish(input, result, report_json(input, result));
-    return {};
-  } catch (const OutputError& error) {
-    return error.what();
-  }
-}
-
 // As the shell takes it.
 std::string quoted(const std::string& word) {
   constexpr const char* plain =
@@ -161,8 +151,8 @@ std::vector<NextStep> next_steps(const RunOptions& options, const GivenKeys& giv
     const std::string seconds = with_digits(std::max(1.0, advice.seconds), 1);
     steps.push_back({command, fmt::format("{} (about {} s)", advice.gain, seconds)});
   }
-  if (std::ranges::any_of(run.input.scatter,
-                          [](const auto& of_key) { return of_key.second > 0.0; })) {
+  const auto scatters = [](const auto& of_key) { return of_key.second > 0.0; };
+  if (std::ranges::any_of(run.input.scatter, scatters)) {
     std::string command = fmt::format("{} scatter {}", program, quoted(options.input.file));
     for (const std::string& setting : options.input.settings)
       command += " --set " + quoted(setting);
@@ -207,7 +197,12 @@ int run(RunOptions& options) {
   listener.hold_back();
   const Result& result = finished.result;
   // Before anything is printed: the reader of a pipe may leave early and end the program.
-  const std::string unwritten = write(files, input, result);
+  std::string unwritten;  // why
+  try {
+    files.finish(input, result, report_json(input, result));
+  } catch (const OutputError& error) {
+    unwritten = error.what();
+  }
   const bool all_rows = options.all || !unwritten.empty();
   if (!options.quiet || !unwritten.empty()) {
     print("{}\n{}", run_summary(input, result, options.verbose),
@@ -220,16 +215,16 @@ int run(RunOptions& options) {
     std::fflush(stdout);
   }
   std::vector<std::string> warnings = result.warnings;
-  std::erase_if(warnings, [&](const std::string& warning) {
-    return std::ranges::find(doubts, warning) != doubts.end();
-  });
+  for (const std::string& doubt : doubts) std::erase(warnings, doubt);
   // The summary has them too.
   if (options.quiet || isatty(STDOUT_FILENO) == 0) print_warnings(warnings);
   if (!result.outcome.completed()) {
     print_error("subimpact: {}\n", failure_message(input, result));
   }
-  if (!unwritten.empty()) print_error("subimpact: {}\n", unwritten);
-  if (!unwritten.empty()) return failed;
+  if (!unwritten.empty()) {
+    print_error("subimpact: {}\n", unwritten);
+    return failed;
+  }
   if (result.outcome.kind == OutcomeKind::stopped) return listener.exit_status();
   if (result.outcome.kind == OutcomeKind::left_validity) return refused;
   return result.outcome.completed() ? done : failed;

@@ -95,8 +95,8 @@ Case for_derivatives(const Case& input) {
 
 // Nothing where the scene does not allow the mesh.
 std::optional<Case> resized(const Case& input, double ratio) {
-  const std::optional<RefinedRun> other = on_other_mesh(input, ratio);
-  return other && can_run(other->input) ? std::optional(other->input) : std::nullopt;
+  const std::optional<Case> other = on_other_mesh(input, ratio);
+  return other && can_run(*other) ? other : std::nullopt;
 }
 
 // The case on a mesh, coarser if need be but at least an eighth as fine, on which so many runs take

@@ -36,12 +36,6 @@ CellMesh::Spacing spacing_of(const Case& input) {
          input.scene.striker.position, why, count, parts, nearest, 1.0 - nearest, also, parts);
 }
 
-// Whether the strike is at an end with a support.
-bool strikes_support(const Case& input) {
-  const int end = input.scene.striker.position == 0.0 ? 0 : 1;
-  return input.scene.beam.ends[end] != EndSupport::free;
-}
-
 bool has_end(const Case& input, EndSupport support) {
   const auto& ends = input.scene.beam.ends;
   return ends[0] == support || ends[1] == support;
@@ -78,7 +72,7 @@ void check_elements(const Case& input) {
   const int elements = input.model.elements;
   const double at = input.scene.striker.position;
   if (strikes_end(input)) {
-    if (!strikes_support(input)) return;
+    if (input.scene.beam.ends[at == 0.0 ? 0 : 1] == EndSupport::free) return;
     refuse("striker.position",
            "is {}, on a support; allowed: strictly between the supports; move the strike inwards",
            at);
@@ -113,28 +107,19 @@ bool uses_half(const Case& input) {
 template <class M, class... Details>
 Mesh make_mesh(const Case& input, int count, const Details&... details) {
   return std::make_shared<M>(input.scene.beam, input.scene.striker.position,
-                             static_cast<std::size_t>(count), details...);
-}
-
-template <class M>
-typename M::Extent extent_of(const Case& input) {
-  return uses_half(input) ? M::Extent::half : M::Extent::whole;
+                             static_cast<std::size_t>(count),
+                             uses_half(input) ? M::Extent::half : M::Extent::whole, details...);
 }
 
 Mesh make_cell_mesh(const Case& input) {
   const int segments = input.model.segments;
-  if (input.scene.beam.shears()) {
-    return make_mesh<TimoshenkoMesh>(input, segments, extent_of<TimoshenkoMesh>(input));
-  }
-  return make_mesh<CellMesh>(input, segments, extent_of<CellMesh>(input), spacing_of(input));
+  if (input.scene.beam.shears()) return make_mesh<TimoshenkoMesh>(input, segments);
+  return make_mesh<CellMesh>(input, segments, spacing_of(input));
 }
 
-Mesh make_hermite_mesh(const Case& input) {
-  return make_mesh<HermiteMesh>(input, input.model.elements, extent_of<HermiteMesh>(input));
-}
-
-Mesh make_spectral_mesh(const Case& input) {
-  return make_mesh<SpectralMesh>(input, input.model.elements, extent_of<SpectralMesh>(input));
+template <class M>
+Mesh make_element_mesh(const Case& input) {
+  return make_mesh<M>(input, input.model.elements);
 }
 
 double size_of_cells(const Case& input) {
@@ -173,7 +158,7 @@ constexpr MeshDescriptor rows[] = {
      .keys = keys_of_elements,
      .suits = [](const Beam& beam) { return !beam.shears(); },
      .check = check_elements,
-     .make = make_hermite_mesh,
+     .make = make_element_mesh<HermiteMesh>,
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
                      static_cast<int>(HermiteMesh::fewest_elements), false, size_of_elements,
                      order_of_elements}}},
@@ -183,7 +168,7 @@ constexpr MeshDescriptor rows[] = {
      .keys = keys_of_elements,
      .suits = [](const Beam& beam) { return beam.shears(); },
      .check = check_elements,
-     .make = make_spectral_mesh,
+     .make = make_element_mesh<SpectralMesh>,
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
                      static_cast<int>(SpectralMesh::fewest_elements), false, size_of_elements,
                      [](const Case&) { return 2; }}}},
@@ -211,15 +196,6 @@ bool strikes_end(const Case& input) {
   return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
 }
 
-void check_spacing(const Case& input) {
-  if (!mesh_uses(input, "model.spacing") && input.model.spacing != CellSpacing::cells) {
-    refuse("model.spacing",
-           "is {}, but only cells have a spacing; allowed with this mesh: \"cells\"; leave it out, "
-           "or set model.mesh = \"cells\"",
-           value_text(input, "model.spacing"));
-  }
-}
-
 void check_mesh(const Case& input) {
   const MeshDescriptor& mesh = descriptor_of(input.model.mesh);
   if (!mesh.suits(input.scene.beam)) {
@@ -232,7 +208,12 @@ void check_mesh(const Case& input) {
            "these, or another theory",
            mesh.name, value_text(input, "beam.theory"), fmt::join(suitable, ", "));
   }
-  check_spacing(input);
+  if (!mesh_uses(input, "model.spacing") && input.model.spacing != CellSpacing::cells) {
+    refuse("model.spacing",
+           "is {}, but only cells have a spacing; allowed with this mesh: \"cells\"; leave it out, "
+           "or set model.mesh = \"cells\"",
+           value_text(input, "model.spacing"));
+  }
   mesh.check(input);
 }
 

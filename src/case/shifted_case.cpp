@@ -1,13 +1,10 @@
 #include "case/shifted_case.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "case/problem.h"
-#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {

@@ -1,5 +1,4 @@
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <any>
@@ -21,8 +20,9 @@ namespace fs = std::filesystem;
 class ResultWriter::RowFile {
  public:
   template <class Row>
-  explicit RowFile(const RunTable<Row>& table, const OutputOptions& output = {})
-      : name_(table.file),
+  RowFile(ResultWriter& writer, const RunTable<Row>& table, const OutputOptions& output = {})
+      : writer_(writer),
+        name_(table.file),
         columns_(table.columns_of(output)),
         heading_(csv_heading(std::any_cast<const Columns<Row>&>(columns_))),
         pending_(heading_) {}
@@ -33,11 +33,17 @@ class ResultWriter::RowFile {
   template <class Row>
   void add(const Row& row) {
     append_row(pending_, std::any_cast<const Columns<Row>&>(columns_), row, numbers_);
+    if (pending_.size() <= most_pending || !writer_.lost_.empty()) return;
+    try {
+      write();
+    } catch (const OutputError& error) {  // the run goes on: its events can still be printed
+      writer_.lost_ = error.what();
+    }
   }
-  bool is_full() const { return pending_.size() > most_pending; }
 
   /// Writes the rows collected. Throws OutputError.
-  void write_to(const OutputDirectory& directory) {
+  void write() {
+    const OutputDirectory& directory = writer_.directory_;
     const fs::path path = directory.staging() / name_;
     constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC;
     if (file_ < 0) file_ = open(path.c_str(), flags, 0666);
@@ -61,6 +67,8 @@ class ResultWriter::RowFile {
     if (file_ >= 0) close(file_);
     file_ = -1;
   }
+
+  ResultWriter& writer_;
   std::string name_;
   std::any columns_;  // Columns of its rows
   std::string heading_;
@@ -127,25 +135,21 @@ ResultWriter::ResultWriter(const fs::path& directory, const Case& input)
     : directory_(directory, "run") {
   check_space(directory_, input);
   const OutputOptions& output = input.output;
-  history_ = std::make_unique<RowFile>(run_table<HistoryRow>(), output);
-  if (!output.sections.empty()) sections_ = std::make_unique<RowFile>(run_table<SectionRow>());
-  if (!output.points.empty()) points_ = std::make_unique<RowFile>(run_table<PointRow>());
+  history_ = std::make_unique<RowFile>(*this, run_table<HistoryRow>(), output);
+  if (!output.sections.empty()) {
+    sections_ = std::make_unique<RowFile>(*this, run_table<SectionRow>());
+  }
+  if (!output.points.empty()) points_ = std::make_unique<RowFile>(*this, run_table<PointRow>());
 }
 
 ResultWriter::~ResultWriter() = default;
 
-template <class Row>
-void ResultWriter::add_to(RowFile& file, const Row& row) {
-  file.add(row);
-  if (file.is_full()) flush(file);
-}
-
-void ResultWriter::add(const HistoryRow& row) { add_to(*history_, row); }
-void ResultWriter::add(const SectionRow& row) { add_to(*sections_, row); }
-void ResultWriter::add(const PointRow& row) { add_to(*points_, row); }
+void ResultWriter::add(const HistoryRow& row) { history_->add(row); }
+void ResultWriter::add(const SectionRow& row) { sections_->add(row); }
+void ResultWriter::add(const PointRow& row) { points_->add(row); }
 void ResultWriter::add(const ShapeRow& row) {
-  if (!shapes_) shapes_ = std::make_unique<RowFile>(run_table<ShapeRow>());
-  add_to(*shapes_, row);
+  if (!shapes_) shapes_ = std::make_unique<RowFile>(*this, run_table<ShapeRow>());
+  shapes_->add(row);
 }
 
 template <class Use>
@@ -159,19 +163,10 @@ void ResultWriter::restart() {
   for_each_file([](RowFile& file) { file.restart(); });
 }
 
-void ResultWriter::flush(RowFile& rows) {
-  if (!lost_.empty()) return;
-  try {
-    rows.write_to(directory_);
-  } catch (const OutputError& error) {  // the run goes on: its events can still be printed
-    lost_ = error.what();
-  }
-}
-
 void ResultWriter::finish(const Case& input, const Result& result, const std::string& report) {
   if (!lost_.empty()) throw OutputError(lost_);
   const fs::path& place = directory_.staging();
-  for_each_file([this](RowFile& file) { file.write_to(directory_); });
+  for_each_file([](RowFile& file) { file.write(); });
   const auto write_table = [&]<class Row>(const RunTable<Row>& table) {
     write_file(place / table.file, csv_of<Row>(result));
   };

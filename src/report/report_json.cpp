@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
-
 #include "case/counted.h"
 #include "case/keys/case_choices.h"
 #include "case/problem.h"

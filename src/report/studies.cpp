@@ -1,16 +1,11 @@
 #include "subimpact/report/text.h"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <sstream>
 
 #include "case/counted.h"
-#include "io/directory/listed_files.h"
 #include "numerics/units.h"
 #include "report/study_columns.h"
-#include "simulate/settings/refuse.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/io/results.h"
 
 namespace subimpact {
 std::string outcome_table(const OutcomeMap& map) {

@@ -62,8 +62,8 @@ class Answers {
   // In the order of the keys.
   std::vector<Answer> all() {
     add_counts();
-    Answer& force = add(AnswerKey::largest_force, "N", if_touched(result_.max_force), no_contact,
-                        RunTotal::peak_force);
+    Answer& force = add(AnswerKey::largest_force, "N", value_if(is_touched_, result_.max_force),
+                        no_contact, RunTotal::peak_force);
     if (is_touched_) {
       const auto hit = std::ranges::max_element(hits_, {}, &SubImpact::peak_force);
       force.time = hit->peak_time;
@@ -71,20 +71,20 @@ class Answers {
     }
     add_times();
     add_velocities();
-    add(AnswerKey::impulse, "N s", if_touched(result_.impulse()), no_contact, RunTotal::impulse);
+    add(AnswerKey::impulse, "N s", value_if(is_touched_, result_.impulse()), no_contact,
+        RunTotal::impulse);
     add_zones();
-    add(AnswerKey::indentation, "m", if_touched(result_.max_indentation), no_contact,
+    add(AnswerKey::indentation, "m", value_if(is_touched_, result_.max_indentation), no_contact,
         RunTotal::max_indentation);
     const double dent = is_touched_ ? hits_.back().residual_indentation : 0.0;
-    add(AnswerKey::dent, "m", dent > 0.0 ? std::optional(dent) : std::nullopt,
-        is_touched_ ? stays_elastic : no_contact, RunTotal::residual_indentation);
+    add(AnswerKey::dent, "m", value_if(dent > 0.0, dent), is_touched_ ? stays_elastic : no_contact,
+        RunTotal::residual_indentation);
     add_pressure();
     add_bending();
     add_supports();
     const Energies& end = result_.final_energies;
-    const bool has_energy = end.taken_up() > 0.0;
-    add(AnswerKey::energy, "J", has_energy ? std::optional(end.dissipated()) : std::nullopt,
-        not_computed, RunTotal::dissipated);
+    add(AnswerKey::energy, "J", value_if(end.taken_up() > 0.0, end.dissipated()), not_computed,
+        RunTotal::dissipated);
     for (Answer& answer : all_) {
       if (answer.value && result_.body_errors) add_body_error(*result_.body_errors, answer);
     }
@@ -92,8 +92,8 @@ class Answers {
   }
 
  private:
-  std::optional<double> if_touched(double value) const {
-    return is_touched_ ? std::optional(value) : std::nullopt;
+  static std::optional<double> value_if(bool is_there, double value) {
+    return is_there ? std::optional(value) : std::nullopt;
   }
 
   // `otherwise`: why there is no value.
@@ -189,9 +189,8 @@ class Answers {
   }
 
   void add_velocities() {
-    const bool is_fixed = input_.scene.striker.fixed;
     add(AnswerKey::striker_velocity, "m/s",
-        is_fixed ? std::nullopt : std::optional(result_.striker_velocity), fixed,
+        value_if(!input_.scene.striker.fixed, result_.striker_velocity), fixed,
         RunTotal::striker_velocity)
         .time = result_.outcome.time;
     const bool at_rest = result_.first_touch.striker <= result_.first_touch.beam;
@@ -248,12 +247,11 @@ class Answers {
         position = end == 0 ? 0.0 : input_.scene.beam.length;
       }
     }
-    const bool is_there = largest.value != 0.0;
     Answer& answer =
-        add(AnswerKey::supports, "N", is_there ? std::optional(largest.value) : std::nullopt,
+        add(AnswerKey::supports, "N", value_if(largest.value != 0.0, largest.value),
             input_.scene.beam.is_free() ? no_supports : not_computed,
             largest.value > 0.0 ? RunTotal::reaction_along : RunTotal::reaction_against);
-    if (!is_there) return;
+    if (largest.value == 0.0) return;
     answer.time = largest.time;
     answer.position = position;
   }

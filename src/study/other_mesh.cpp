@@ -8,7 +8,6 @@
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/settings/methods.h"
-#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 namespace {
@@ -44,26 +43,20 @@ std::string mesh_words(const Case& input) {
   return fmt::format("{} {}", mesh_count(input), refinement->parts);
 }
 
-std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
+std::optional<Case> on_other_mesh(const Case& input, double factor) {
   const auto refinement = refinement_of(input);
   if (!refinement) return {};
-  RefinedRun refined_run{input, {}};
-  Case& other = refined_run.input;
+  Case other = input;
   other.output.keep_no_rows();
   int& count = other.model.*(refinement->count);
   // An even number of elements has a node at mid-span: equal elements, with modes in closed form.
   const bool any = !uses_symmetry(input) && refinement->odd_in_half;
   count = nearest(factor * mesh_count(input), any, refinement->odd_in_half);
   if (count < refinement->fewest) return {};
-  refined_run.description = fmt::format("{} {}", count, refinement->parts);
-  const bool fixed = descriptor_of(input.solver.method).has_fixed_steps();
-  if (fixed && input.solver.step) {
+  if (descriptor_of(input.solver.method).has_fixed_steps() && input.solver.step) {
     other.solver.step = std::min(*input.solver.step, largest_stable_step(other));
-    if (*other.solver.step < *input.solver.step) {
-      refined_run.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
-    }
   }
-  return refined_run;
+  return other;
 }
 
 }  // namespace subimpact

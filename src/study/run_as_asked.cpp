@@ -2,16 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <utility>
 
 #include "case/meshes.h"
-#include "study/judgement/mesh_resolution.h"
 #include "study/judgement/totals.h"
 #include "subimpact/study/answers.h"
-#include "subimpact/study/judgement/judgement.h"
 #include "subimpact/study/model.h"
 
 namespace subimpact {

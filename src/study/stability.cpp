@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
-#include <span>
 
-#include "case/counted.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "case/problem.h"
 #include "numerics/estimates.h"

@@ -149,7 +149,7 @@ void choose_finer(DrawnScene& drawn, const Kind& kind) {
                    elements(input, 2 * std::max(n, 2 * coarse))};
   } else if (input.model.mesh == MeshKind::cells) {
     const double factor = kind.hard ? 4.0 : 2.0;
-    drawn.finer = {on_other_mesh(input, factor)->input, on_other_mesh(input, 2.0 * factor)->input};
+    drawn.finer = {*on_other_mesh(input, factor), *on_other_mesh(input, 2.0 * factor)};
   } else if (kind.hard) {
     const int count = rotary ? 2401 : 1001;
     drawn.finer = {cells(input, count), cells(input, 2 * count - 1)};

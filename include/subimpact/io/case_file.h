@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/case/case.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 

@@ -1,12 +1,9 @@
 #pragma once
 
-/// A directory whose files belong together: those of one run, one comparison, one study. New files
-/// are written into a hidden directory in it. commit() puts them in place together: it replaces
-/// manifest.json, which lists every file with its checksum, in a single rename, and then moves the
-/// files. A process that is killed before the rename leaves the older files, one that is killed
-/// after it the newer ones; readers find each file under one of two names by its checksum,
-/// and the next writer moves what is left. A lock (flock) keeps other writers out,
-/// including those on other hosts if the file system supports it.
+/// A directory whose files belong together, those of one run, one comparison, one study, and become
+/// valid together (docs/files.md, "One directory, one run"). commit() replaces manifest.json in a
+/// single rename and then moves the files; readers find each under one of two names by its
+/// checksum, and the next writer moves what a killed one left.
 
 #include <filesystem>
 #include <memory>
@@ -38,10 +35,8 @@ class OutputDirectory {
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& staging() const { return staging_; }
 
-  /// Puts all files of staging() in place; more may follow and be committed in turn. Files that a
-  /// commit() of another identity has put there before are replaced or removed; a file that none
-  /// has put there and whose name a new file takes becomes "name.kept". Throws OutputError; the
-  /// older files are then in place unless manifest.json lists the newer ones.
+  /// Puts all files of staging() in place; more may follow and be committed in turn. Throws
+  /// OutputError; the older files are then in place unless manifest.json lists the newer ones.
   void commit();
 
  private:

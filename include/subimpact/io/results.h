@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +15,10 @@ namespace subimpact {
 /// or removed. Files of other layouts are not read.
 constexpr int summary_layout = 6;
 
-/// Writes the files of a run; `report`: report_json() of it, for `subimpact report`, or empty.
-/// Numbers in CSV carry 17 significant digits, enough to read the same double back; the columns are
-/// the same for every result. Files: events.csv, transitions.csv, history.csv and summary.json;
-/// shapes.csv and envelope.csv unless output.shapes is 0; sections.csv and points.csv if
-/// output.sections and output.points are not empty. All files appear together, with a
-/// manifest.json, or none does (see OutputDirectory). Throws OutputError.
+/// Writes the files of a run (docs/files.md); `report`: report_json() of it, for `subimpact
+/// report`, or empty. Numbers in CSV carry 17 significant digits, enough to read the same double
+/// back. All files appear together, with a manifest.json, or none does (see OutputDirectory).
+/// Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result,
                    const std::string& report = {});
 
@@ -57,14 +54,10 @@ class ResultWriter final : public RowSink {
 
  private:
   class RowFile;
-  template <class Row>
-  void add_to(RowFile& file, const Row& row);
-  void flush(RowFile& rows);
-
-  OutputDirectory directory_;
   template <class Use>
   void for_each_file(Use use);
 
+  OutputDirectory directory_;
   std::unique_ptr<RowFile> history_, sections_, points_, shapes_;  // none: no such rows
   std::string lost_;                                               // why rows could not be written
 };

@@ -3,15 +3,10 @@
 /// Results and studies as text for people, in microseconds, millimetres and newtons, and as CSV and
 /// JSON files.
 
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "subimpact/case/case.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/simulate.h"
-#include "subimpact/simulate/result.h"
 #include "subimpact/study/studies.h"
 
 namespace subimpact {
@@ -35,9 +30,8 @@ std::string tolerance_words(const ToleranceOutcome& tolerance, const Result& res
 std::string strike_table(const Result& result, bool all = true);
 
 /// One line per sub-impact, under a heading with units; zones and sub-zones are separated. Begins
-/// with outcome_caveat(), if there is one. With an error estimate, times are followed by their
-/// errors and no number has more digits than the errors allow; sub-impacts that are not certain
-/// have question marks. `fold`: three or more of these in succession are one line with their sums.
+/// with outcome_caveat(). Numbers have the digits that their errors allow; sub-impacts that are not
+/// certain have question marks. `fold`: three or more of these in succession are one line.
 std::string sub_impact_table(const Result& result, bool fold = true);
 
 /// Why contact is over, or how close striker and beam come after the last sub-impact.
@@ -50,18 +44,16 @@ std::string finer_meshes_words(const Result& result);
 /// Sets Result::answers and Result::verdict, with their words: the only place that makes them.
 void make_answers(const Case& input, Result& result);
 
-/// The title and the strike, the verdict, a table of the answers with both errors of each, what the
-/// largest errors of the body come from and what to do about them, doubts and warnings; lines of at
-/// most 100 columns. `verbose` adds notes, all parts, mesh, method, the runs beside, conservation
-/// and work. Of a result with answers (make_answers).
+/// The title and the strike, the verdict, the answers with both errors of each, what the largest
+/// errors of the body come from, doubts and warnings; lines of at most 100 columns. `verbose` adds
+/// all parts, how the run was made and what it took. Of a result with answers (make_answers).
 std::string run_summary(const Case& input, const Result& result, bool verbose = false);
 
 /// The version of the layout of report.json, its key "layout".
 constexpr int report_layout = 1;
 
 /// report.json: what a page shows of a run beside summary.json and its tables, rounded as the
-/// screen rounds it: the table of sub-impacts, doubts, the case with every choice, and what a
-/// drawing needs of the scene. Of a result with answers (make_answers).
+/// screen rounds it. Of a result with answers (make_answers).
 std::string report_json(const Case& input, const Result& result);
 
 /// For a run that did not complete: one line with time, mode, method, last event, cause, the times
@@ -72,9 +64,8 @@ std::string failure_message(const Case& input, const Result& result);
 /// One line per method, with its differences from the reference, also in words.
 std::string comparison_table(const Comparison& comparison);
 
-/// Force, contacts and final velocity of the striker by several models; starts and ends of every
-/// sub-impact, with their errors and how much later they come than by the first model; then a
-/// sentence that compares each model with the first.
+/// What several models say of the strike and of every sub-impact, with errors, and how much later
+/// these come than by the first model; then a sentence that compares each model with the first.
 std::string model_table(const std::vector<ModelRun>& runs);
 
 /// What a run of a case will take, and what the first of its runs models, why. Throws InvalidCase.
@@ -103,8 +94,7 @@ std::string recommendation_text(const std::vector<Recommendation>& recommendatio
 /// work_precision.csv: one row per point of each study.
 std::string work_precision_csv(const std::vector<WorkPrecision>& studies);
 
-/// Identifies a case: a fingerprint of the program's version and of all keys except the title, the
-/// outputs and those that a study sets (method, table, tolerance, step).
+/// case_identity() without the outputs and what a study sets (method, table, tolerance, step).
 std::string case_id(const Case& input);
 
 /// One letter for each run, and outcomes.csv, one row for each.

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
@@ -84,12 +83,10 @@ struct WithinRun {
 
 /// Runs a case on finer and finer meshes, each together with the cases that judge it, until all
 /// sub-impacts are certain, no others are possible, and all event times are within
-/// accuracy.event_times. The next mesh follows from the stated errors and the order of the mesh,
-/// and the counted work so far decides whether it is affordable. While sub-impacts are uncertain,
-/// the last mesh is as fine as is affordable at once. Neither depends on measured time
-/// or on the number of jobs. Runs that are not expected to be the last keep no rows.
-/// Result::tolerance states whether this is met and, if not, why, and which key of the case
-/// prevents it. Result::choice gives the reason for the choice. A stopped search returns the run on
+/// accuracy.event_times, or the next mesh would take too much counted work
+/// (docs/theory/errors.md, "Refinement"). Meshes do not depend on measured time or on the number of
+/// jobs. Result::tolerance states whether this is met and, if not, why, and which key of the case
+/// prevents it; Result::choice gives the reason for the choice. A stopped search returns the run on
 /// the last finished mesh. Throws InvalidCase.
 WithinRun simulate_within(const Case& input, const OpenChoices& open,
                           const WithinOptions& options = {});
@@ -119,14 +116,12 @@ std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& give
 /// Runs a case as `subimpact run` does, with error estimates and errors of the body, unless
 /// error bars are off or `body_errors` is false; simulate(Case) is one run on the mesh of the
 /// case. `given`: the keys that the caller has chosen; the program chooses mesh and method if no
-/// such key is among them. Throws InvalidCase. With repeat.strikes = N the beam is struck N times,
-/// on the mesh of the first strike, as are those of the runs that show the errors, and comes to
-/// rest before each strike unless strike.rest is false. The result is that of the last strike, with
-/// a row of each in Result::strikes, and with errors of the body.
+/// such key is among them. Throws InvalidCase. With repeat.strikes = N all strikes are on the mesh
+/// of the first one; the result is that of the last, with a row of each in Result::strikes.
 WithinRun run_as_asked(const Case& input, const GivenKeys& given = {}, RunRequest request = {});
 
-/// The first of the runs that run_as_asked() makes of a case, by default; without a reason where
-/// the case fixes mesh or method.
+/// The first of the runs that run_as_asked() makes by default; no reason where the case fixes mesh
+/// or method.
 ChosenModel first_run(const Case& input, const GivenKeys& given);
 
 /// The case with the mesh, method and tolerance that run_as_asked() would choose where they are

@@ -4,16 +4,13 @@
 /// by method and setting by setting; and where and how runs fail.
 
 #include <array>
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement/event_errors.h"
-#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 
@@ -29,11 +26,10 @@ struct Comparison {
   bool interrupted = false;  ///< `runs` are those that had ended; none: the reference had not
 };
 
-/// Runs a scene by several methods ("central-difference", "erk", or with a table "erk:verner"),
-/// each with the case's step if one is given, else with its tolerance or the default step, and
-/// compares them with run_reference() at rtol = 1e-11. History rows are left out. `progress`, if
-/// any, can end the comparison. Throws InvalidCase, also for unknown methods, a step or an order
-/// that a method does not have, and a reference that fails.
+/// Runs a scene by several methods (as for parse_method_name()), each with the case's step if one
+/// is given, else with its tolerance or the default step, without history rows, and compares them
+/// with run_reference() at rtol = 1e-11. Throws InvalidCase, also for unknown methods, a step or an
+/// order that a method does not have, and a reference that fails.
 Comparison compare(const Case& input, const std::vector<std::string>& methods,
                    const std::function<void(const std::string& name)>& announce = {},
                    const Progress& progress = {});
@@ -50,9 +46,8 @@ struct ModelRun {
 Case with_contact_law(const Case& input, const std::string& name);
 
 /// Runs a scene by several models: cases that differ only in beam theory or contact law, and their
-/// names. `announce` is called with the index of each run that begins; `progress`, if any, can end
-/// the comparison: the runs are then those that had ended. Throws InvalidCase before anything is
-/// run.
+/// names. `announce` is called with the index of each run that begins. Where `progress` ends the
+/// comparison, the runs are those that had ended. Throws InvalidCase before anything is run.
 std::vector<ModelRun> compare_models(std::span<const Case> cases,
                                      std::span<const std::string> names, Jobs jobs,
                                      const std::function<void(std::size_t)>& announce = {},
@@ -109,9 +104,8 @@ struct WorkPrecisionOptions {
 
 /// Sweeps every method from coarse to fine against a reference of its own, tolerances first, then
 /// fixed steps. Timed runs are made one at a time; the shortest of several repeats counts. A sweep
-/// ends when the next setting
-/// would take longer than `point_seconds` (this setting is reported as not run), or when its errors
-/// fall to those of the reference. Throws InvalidCase, for methods before anything is run.
+/// ends when the next setting would take longer than `point_seconds`, or when its errors fall to
+/// those of the reference. Throws InvalidCase, for methods before anything is run.
 WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& options = {});
 
 /// The cheapest setting for each of recommended_errors: all sub-impacts correspond, and no event
@@ -119,7 +113,7 @@ WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& opti
 std::vector<Recommendation> recommendations_from(const std::vector<Trial>& points);
 
 /// By which factor errors grow over the scene: the median, over the points that are right, of the
-/// last event's error divided by that of the first. Nothing without such points.
+/// last event's error over that of the first. Nothing without such points.
 std::optional<double> error_growth(const std::vector<Trial>& points);
 
 /// Whether a list of methods includes this one: a name without a table stands for all its tables,
@@ -137,11 +131,9 @@ struct OutcomeMap {
 };
 
 /// Methods against fixed steps, from far below to far beyond the stable ones, and against
-/// tolerances; backward differentiation order by order; implicit methods with steps at which high
-/// modes are damped away. A run that takes more than `run_seconds` by the clock is left out.
-/// Nothing is compared by time: `jobs` runs go at a time (0: one for each processor). `progress` is
-/// called with the numbers of finished and of all runs; false: no more begin, and the result holds
-/// those that have ended.
+/// tolerances; backward differentiation order by order. A run that takes more than `run_seconds` by
+/// the clock is left out. `jobs` runs go at a time (0: one for each processor). `progress` is
+/// called with the numbers of finished and of all runs; false: no more begin.
 using Count = std::function<bool(std::size_t done, std::size_t all)>;
 OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods = {},
                        double run_seconds = 20.0, Jobs jobs = 0, const Count& progress = {});

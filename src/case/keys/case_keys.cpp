@@ -1,22 +1,108 @@
 #include "subimpact/case/case_keys.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <type_traits>
-#include <utility>
 
 #include "case/keys/case_choices.h"
-#include "case/keys/key_members.h"
 #include "case/keys/materials.h"
 #include "case/shifted_case.h"
 #include "subimpact/simulate/options.h"
 
 namespace subimpact {
 namespace {
+
+// How a member of a case of each type is a value of a key, and back.
+template <class T>
+struct Member {  // an enumeration
+  static constexpr KeyType type = KeyType::choice;
+  using Choices = T;
+  static KeyValue to_value(T x) { return std::string(name_of(x)); }
+  static T from_value(const KeyValue& v) { return value_of<T>(std::get<std::string>(v)); }
+};
+template <class T, KeyType key_type>
+struct HeldMember {
+  static constexpr KeyType type = key_type;
+  static KeyValue to_value(const T& x) { return x; }
+  static T from_value(const KeyValue& v) { return std::get<T>(v); }
+};
+template <>
+struct Member<bool> : HeldMember<bool, KeyType::flag> {};
+template <>
+struct Member<std::string> : HeldMember<std::string, KeyType::text> {};
+template <>
+struct Member<double> : HeldMember<double, KeyType::number> {
+  static double from_value(const KeyValue& v) {
+    if (const auto* whole = std::get_if<std::int64_t>(&v)) return static_cast<double>(*whole);
+    return std::get<double>(v);
+  }
+};
+template <>
+struct Member<int> : HeldMember<std::int64_t, KeyType::count> {
+  static int from_value(const KeyValue& v) { return static_cast<int>(std::get<std::int64_t>(v)); }
+};
+template <>
+struct Member<std::vector<double>> : HeldMember<std::vector<double>, KeyType::numbers> {
+  static std::vector<double> from_value(const KeyValue& v) {
+    // An empty list in a case file has no element type.
+    const auto* numbers = std::get_if<std::vector<double>>(&v);
+    return numbers != nullptr ? *numbers : std::vector<double>{};
+  }
+};
+template <class T>
+struct Member<std::array<T, 2>> {
+  static constexpr KeyType type = KeyType::pair;
+  using Choices = T;
+  static KeyValue to_value(const std::array<T, 2>& x) {
+    return std::vector<std::string>{name_of(x[0]), name_of(x[1])};
+  }
+  static std::array<T, 2> from_value(const KeyValue& v) {
+    const auto& names = std::get<std::vector<std::string>>(v);
+    return {value_of<T>(names[0]), value_of<T>(names[1])};
+  }
+};
+
+// Things at points, each as an entry of a list and back.
+using Entry = PlacedValues::Entry;
+Entry entry_of(const Spring& x) {
+  return {x.position, {{0.0, x.stiffness}}, {}, false, x.one_sided};
+}
+Entry entry_of(const PointForce& x) { return {x.position, x.table}; }
+Entry entry_of(const Gauge& x) { return {x.position, {}, name_of(x.face)}; }
+void read(const Entry& entry, Spring& x) {
+  x = {entry.position, entry.table.front().second, entry.one_sided};
+}
+void read(const Entry& entry, PointForce& x) { x = {entry.position, entry.table}; }
+void read(const Entry& entry, Gauge& x) { x = {entry.position, value_of<Face>(entry.word)}; }
+
+const char* quantity_of(const Spring&) { return "stiffness"; }
+const char* quantity_of(const PointForce&) { return "force"; }
+const char* quantity_of(const Gauge&) { return "face"; }
+
+template <class T>
+struct PlacedMember {
+  static constexpr KeyType type = KeyType::placed;
+  static KeyValue to_value(const std::vector<T>& x) {
+    PlacedValues value{quantity_of(T{}), {}};
+    for (const T& one : x) value.entries.push_back(entry_of(one));
+    return value;
+  }
+  static std::vector<T> from_value(const KeyValue& v) {
+    std::vector<T> things;
+    for (const Entry& entry : std::get<PlacedValues>(v).entries) read(entry, things.emplace_back());
+    return things;
+  }
+};
+template <>
+struct Member<std::vector<Spring>> : PlacedMember<Spring> {};
+template <>
+struct Member<std::vector<PointForce>> : PlacedMember<PointForce> {};
+template <>
+struct Member<std::vector<Gauge>> : PlacedMember<Gauge> {
+  using Choices = Face;
+};
 
 template <class T>
 const T* held(const T& member) {
@@ -152,8 +238,7 @@ CaseKey with_choices(CaseKey key, std::vector<Choice> choices) {
 std::vector<Choice> table_choices() {
   std::vector<Choice> choices;
   for (const MethodTable& table : method_tables()) {
-    const auto same = std::find_if(choices.begin(), choices.end(),
-                                   [&](const Choice& c) { return c.name == table.name; });
+    const auto same = std::ranges::find(choices, table.name, &Choice::name);
     if (same != choices.end()) {
       same->note = fmt::format("{}, {}", to_string(table.method), same->note);
       continue;
@@ -190,9 +275,8 @@ CaseKey scatter_row(const CaseKey& of) {
   CaseKey key;
   key.name = "scatter." + of.name;
   key.type = KeyType::number;
-  const Range range = between("from 0 to 0.5", 0.0, 0.5);
-  key.range = range.words;
-  key.limits = range.limits;
+  key.range = "from 0 to 0.5";
+  key.limits = {.minimum = 0.0, .maximum = 0.5};
   key.required = false;
   key.default_text = "0";
   key.meaning = "relative standard deviation of " + of.name;
@@ -208,11 +292,9 @@ CaseKey scatter_row(const CaseKey& of) {
 }
 
 std::vector<CaseKey> with_scatter(std::vector<CaseKey> keys) {
-  std::vector<CaseKey> rows;
-  for (const CaseKey& key : keys) {
-    if (is_number_of_scene(key)) rows.push_back(scatter_row(key));
+  for (std::size_t i = 0, n = keys.size(); i < n; ++i) {
+    if (is_number_of_scene(keys[i])) keys.push_back(scatter_row(keys[i]));
   }
-  keys.insert(keys.end(), rows.begin(), rows.end());
   return keys;
 }
 
@@ -350,10 +432,8 @@ const std::vector<CaseKey>& case_keys() {
 }
 
 const CaseKey* find_case_key(std::string_view name) {
-  for (const CaseKey& key : case_keys()) {
-    if (key.name == name) return &key;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(case_keys(), name, &CaseKey::name);
+  return found != case_keys().end() ? &*found : nullptr;
 }
 
 void assign(Case& target, const CaseKey& key, const KeyValue& value) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "case/counted.h"
 #include "case/problem.h"
 #include "model/contact/contact_laws.h"
 #include "model/mesh/modes.h"

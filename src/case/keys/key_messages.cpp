@@ -1,10 +1,8 @@
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "case/keys/slips.h"
 #include "case/keys/units.h"
 #include "subimpact/case/case_keys.h"
 

@@ -1,6 +1,5 @@
 #include "case/keys/slips.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>

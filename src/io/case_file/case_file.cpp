@@ -1,6 +1,5 @@
 #include "subimpact/io/case_file.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -20,7 +19,6 @@
 #include "case/meshes.h"
 #include "io/case_file/toml_nodes.h"
 #include "simulate/settings/refuse.h"
-#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {

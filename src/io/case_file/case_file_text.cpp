@@ -17,12 +17,8 @@ namespace {
 
 // A text as TOML writes it on one line; JSON escapes the same way, but for DEL.
 std::string toml_text(const std::string& text) {
-  std::string result;
-  for (const char c :
-       nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
-    result += c == '\x7f' ? std::string("\\u007f") : std::string(1, c);
-  }
-  return result;
+  const std::string json = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return std::regex_replace(json, std::regex("\x7f"), "\\u007f");
 }
 
 bool is_empty_list(const KeyValue& value) {
@@ -45,9 +41,7 @@ Json number_or_unit_schema(const CaseKey& key) {
   Json schema = number_schema("number", key.limits);
   std::string units = units_beside(is_position(key) ? "m" : key.unit, "|");
   if (units.empty()) return schema;
-  for (std::size_t at = 0; (at = units.find_first_of("^.", at)) != units.npos; at += 2) {
-    units.insert(at, "\\");
-  }
+  units = std::regex_replace(units, std::regex("[.^]"), "\\$&");
   units = std::regex_replace(units, std::regex("\\|u"), "|(u|\u00b5|\u03bc)");
   units = std::regex_replace(units, std::regex("m([23])"), "m\\^?$1");
   if (!schema["type"].is_array()) schema["type"] = Json{schema["type"]};

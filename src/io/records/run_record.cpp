@@ -6,7 +6,6 @@
 
 #include "integrate/sundials.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {
@@ -136,9 +135,9 @@ Json case_units(const DescribedRun&) {
   return json;
 }
 
-Json libraries_json(const DescribedRun& run) {
+Json libraries_json(const DescribedRun&) {
   Json json;
-  for (const auto& [name, version] : run.libraries) json[name] = version;
+  for (const auto& [name, version] : library_versions()) json[name] = version;
   return json;
 }
 
@@ -212,7 +211,7 @@ Record<DescribedRun> make_run_record() {
   return {
       {"layout", "version of the layout of this file", [](const DescribedRun&) { return summary_layout; }},
       {"program.name", "", [](const DescribedRun&) { return std::string("subimpact"); }},
-      {"program.version", "version of the program", &DescribedRun::program_version},
+      {"program.version", "version of the program", [](const DescribedRun&) { return project_version(); }},
       {"libraries", "their versions", &libraries_json},
       {"case", "keys of the case as asked for", &case_json},
       {"case_units", "units of the keys", &case_units},
@@ -330,8 +329,7 @@ const Record<DescribedRun>& run_record() {
 
 std::string summary_json(const Case& input, const Result& result) {
   // A title may hold bytes that are no UTF-8; they are replaced rather than the file lost.
-  const DescribedRun run = {&input, &result, project_version(), library_versions()};
-  const Json json = json_of(run_record(), run);
+  const Json json = json_of(run_record(), DescribedRun{&input, &result});
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

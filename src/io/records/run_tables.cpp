@@ -1,7 +1,5 @@
 #include "io/records/run_tables.h"
 
-#include <algorithm>
-
 #include "io/records/run_record.h"
 #include "subimpact/io/results.h"
 
@@ -25,20 +23,16 @@ Column<ShapeRow> short_column(const char* name, const char* meaning, double Shap
 
 // The four columns of a range: its ends, each with the instant at which it was reached.
 void add_range(Columns<EnvelopeRow>& columns, const std::string& name, const std::string& unit,
-               const char* meaning, EnvelopeRow::Range EnvelopeRow::*range) {
-  using Extreme = EnvelopeRow::Extreme;
-  using Value = double Extreme::*;
-  const auto add = [&](const char* prefix, const char* words, Extreme EnvelopeRow::Range::*end) {
-    const auto column = [&](const std::string& column_name, const std::string& column_meaning,
-                            Value value) {
-      columns.push_back({column_name, column_meaning,
-                         [=](const EnvelopeRow& row) { return row.*range.*end.*value; }});
-    };
-    column(prefix + name + unit, std::string(words) + meaning, &Extreme::value);
-    column(prefix + name + "_time_s", "instant at which that was reached", &Extreme::time);
+               const std::string& meaning, EnvelopeRow::Range EnvelopeRow::*range) {
+  using Range = EnvelopeRow::Range;
+  const auto add = [&](const char* prefix, const char* words, EnvelopeRow::Extreme Range::*end) {
+    columns.push_back({prefix + name + unit, words + meaning,
+                       [=](const EnvelopeRow& row) { return (row.*range.*end).value; }});
+    columns.push_back({prefix + name + "_time_s", "instant at which that was reached",
+                       [=](const EnvelopeRow& row) { return (row.*range.*end).time; }});
   };
-  add("max_", "largest ", &EnvelopeRow::Range::largest);
-  add("min_", "smallest ", &EnvelopeRow::Range::smallest);
+  add("max_", "largest ", &Range::largest);
+  add("min_", "smallest ", &Range::smallest);
 }
 
 Columns<EnvelopeRow> envelope_columns() {

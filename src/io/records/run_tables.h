@@ -1,7 +1,6 @@
 #pragma once
 
 #include "io/records/csv_columns.h"
-#include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {

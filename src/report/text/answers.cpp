@@ -155,8 +155,8 @@ void add_zone(const Result& result, Answer::Item& zone) {
                        : with_decimals(unit.per_si * total.value, decimals_of_times(result, unit));
   };
   const auto [begin, error, is_lost] = number_and_error(unit, zone.start, as_time.most_digits);
-  const std::string count = fmt::format("{} {}", count_text(zone.sub_impacts),
-                                        noun_after(zone.sub_impacts.value, "sub-impact"));
+  const std::string count = fmt::format("{} sub-impact{}", count_text(zone.sub_impacts),
+                                        zone.sub_impacts.value == 1.0 ? "" : "s");
   const bool is_plain = is_lost || !zone.start.error || zone.start.value == 0.0;
   zone.begin_text =
       fmt::format("from {}: {}", with_unit(is_plain ? time(zone.start) : begin, unit), count);

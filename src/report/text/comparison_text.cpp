@@ -13,17 +13,14 @@
 namespace subimpact {
 namespace {
 
-constexpr std::size_t narrowest_name = 22;
-
 template <auto count>
 constexpr auto work = member<&ComparedRun::work, count>;
 template <auto number>
 constexpr auto errors = member<&ComparedRun::errors, number>;
 StudyColumns<ComparedRun> columns_of(const Comparison& comparison) {
-  std::size_t width = narrowest_name;
-  for (const ComparedRun& run : comparison.runs) width = std::max(width, run.setting.method.size());
-  std::size_t setting_width = 14;
+  std::size_t width = 22, setting_width = 14;
   for (const ComparedRun& run : comparison.runs) {
+    width = std::max(width, run.setting.method.size());
     if (run.input.solver.max_order) setting_width = 22;
   }
   const auto time = [](const char* heading) { return Print{heading, ">10", ".2e", us}; };

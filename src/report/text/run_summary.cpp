@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <utility>
 
 #include "case/counted.h"
@@ -85,13 +83,12 @@ std::vector<Row> rows_of(const Result& result, bool verbose) {
 std::string answer_table(const Result& result, bool verbose) {
   std::vector<Row> rows = rows_of(result, verbose);
   rows.insert(rows.begin(), {"", "", "+- computed", "+- real beam", "mostly of"});
-  const auto width_of = [&](std::string Row::*cell) {
-    return std::invoke(cell, *std::ranges::max_element(
-                                 rows, {}, [&](const Row& row) { return (row.*cell).size(); }))
-        .size();
-  };
-  const std::size_t text = width_of(&Row::text), error = width_of(&Row::error),
-                    body = width_of(&Row::body);
+  std::size_t text = 0, error = 0, body = 0;  // widths
+  for (const Row& row : rows) {
+    text = std::max(text, row.text.size());
+    error = std::max(error, row.error.size());
+    body = std::max(body, row.body.size());
+  }
   std::string table;
   for (const Row& row : rows) {
     const std::string line =

@@ -7,7 +7,6 @@
 
 #include "case/counted.h"
 #include "report/text/uncertain.h"
-#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {
@@ -178,14 +177,15 @@ std::string sub_impact_table(const Result& result, bool fold) {
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   };
   if (const std::string caveat = outcome_caveat(result); !caveat.empty()) add_line(caveat);
-  std::string names, units;
-  for (const SubImpactRows::Column& column : table.columns) {
-    const char* space = units.empty() ? "" : " ";
-    names += fmt::format("{}{:>{}}", space, column.name, column.width);
-    units += fmt::format("{}{:>{}}", space, column.unit, column.width);
-  }
-  add_line(names);
-  add_line(units);
+  const auto add_cells = [&](const auto& cell_of) {
+    std::string line;
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      line += fmt::format("{}{:>{}}", k == 0 ? "" : " ", cell_of(k), table.columns[k].width);
+    }
+    add_line(line);
+  };
+  add_cells([&](std::size_t k) { return table.columns[k].name; });
+  add_cells([&](std::size_t k) { return table.columns[k].unit; });
   const std::vector<SubImpact>& all = result.sub_impacts;
   int zone = 0, subzone = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -208,12 +208,7 @@ std::string sub_impact_table(const Result& result, bool fold) {
       i = last;
       continue;
     }
-    std::string line;
-    for (std::size_t k = 0; k < table.columns.size(); ++k) {
-      line += fmt::format("{}{:>{}}", k == 0 ? "" : " ", table.rows[i].cells[k],
-                          table.columns[k].width);
-    }
-    add_line(line);
+    add_cells([&](std::size_t k) { return table.rows[i].cells[k]; });
   }
   if (const auto* flight = doubt_after_last(result)) {
     add_line("after the last one there may be another: " + words_of(flight->reason));

@@ -2,17 +2,14 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "subimpact/simulate/result.h"
 #include "subimpact/study/answers.h"
 
 namespace subimpact {
 
-/// Rounding of a number to what its error allows. The error has one significant digit, two where
-/// that digit is a 1, and is rounded up; the number is rounded to the place of the error's last
-/// digit: 201.4763 with an error of 0.0163 is 201.476 +- 0.017, with 0.0261 it is 201.48 +- 0.03.
+/// Rounding of a number to what its error allows (docs/files.md, "Digits for people"): 201.4763
+/// with an error of 0.0163 is 201.476 +- 0.017, with 0.0261 it is 201.48 +- 0.03.
 struct Rounding {
   int decimals = 0;        ///< of the number; -1: tens, -2: hundreds, ...
   double rounded = 0.0;    ///< the error
@@ -64,12 +61,11 @@ std::string time_text(double seconds, int digits = 6);
 /// An error of times in words: "0.3 us", "0.012 us", "2 ms"; rounded as above.
 std::string error_text(double seconds);
 
-/// The sub-impacts of a run as people read them: microseconds, newtons, millimetres, or what suits
-/// their size, with the digits that their errors allow; without an error estimate, with a fixed
-/// number of digits. A time is followed by its error, and a duration is rounded to the sum of the
-/// errors of start and end. Sub-impacts that are not certain have a question mark and three digits
-/// of the run that is shown, times as many as its duration needs. Errors above a twentieth of a
-/// value are stated (a quarter, where not certain), and a value below its error is a question mark.
+/// The sub-impacts of a run as people read them: in units that suit their size, with the digits
+/// that their errors allow; without an error estimate, with a fixed number of digits. Sub-impacts
+/// that are not certain have a question mark and three digits of the run that is shown, times as
+/// many as its duration needs. Errors above a twentieth of a value are stated (a quarter, where not
+/// certain), and a value below its error is a question mark.
 struct SubImpactRows {
   struct Column {
     const char* name;

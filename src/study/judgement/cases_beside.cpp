@@ -49,11 +49,12 @@ bool has_fixed_step(const Case& input) {
 
 std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
   try {
-    const std::optional<RefinedRun> other = on_other_mesh(input, size);
-    if (!other || (mesh_count(other->input) < mesh_count(input)) != (size < 1.0)) {
-      return std::nullopt;
+    const std::optional<Case> other = on_other_mesh(input, size);
+    if (!other || (mesh_count(*other) < mesh_count(input)) != (size < 1.0)) return std::nullopt;
+    CaseBeside beside{*other, ErrorSource::mesh_and_time, mesh_words(*other)};
+    if (other->solver.step < input.solver.step) {
+      beside.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other->solver.step);
     }
-    CaseBeside beside{other->input, ErrorSource::mesh_and_time, other->description};
     const double ratio = static_cast<double>(mesh_count(input)) / mesh_count(beside.input);
     // The difference of runs on nearly equal meshes would be taken many times. At the order 1 a
     // part of the difference is chance.

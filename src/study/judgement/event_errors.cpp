@@ -10,22 +10,17 @@
 #include "case/problem.h"
 #include "numerics/estimates.h"
 #include "study/method_choice.h"
-#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {
 
 constexpr double reference_tolerance = 1e-12;
 
-Case accurate(const Case& input, const std::string& method, double rtol) {
-  Case chosen = with_method(input, method);
-  const Method kind = chosen.solver.method;
-  chosen.solver = {};
-  chosen.study = {};
-  chosen.solver.method = kind;
-  chosen.solver.table = parse_method_name(method).table;
-  chosen.solver.rtol = rtol;
-  return chosen;
+Case accurate(Case input, const std::string& method, double rtol) {
+  input.solver = {};
+  input.study = {};
+  input.solver.rtol = rtol;
+  return with_method(input, method);
 }
 
 // Two methods of different kinds that can integrate the equations of a case.

@@ -1,11 +1,9 @@
 #include "subimpact/study/judgement/judgement.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "numerics/units.h"
@@ -16,72 +14,16 @@
 namespace subimpact {
 namespace {
 
-// Multiplies the errors of existence after an uncertain sub-impact of the same sub-zone, and after
-// a contact with a support that another mesh lacks.
-constexpr double after_uncertain = 1.5;
 constexpr double loosest_rtol = 1e-2;
 constexpr double alike = 0.025;          // velocities at the end, over that of the strike
 constexpr double joined_opening = 1e-6;  // m
 
 using UncertainFlight = ErrorEstimate::UncertainFlight;
 
-// All errors of a sub-impact.
-constexpr std::optional<double> SubImpact::*errors[] = {&SubImpact::start_error,
-                                                        &SubImpact::end_error,
-                                                        &SubImpact::peak_force_error,
-                                                        &SubImpact::impulse_error,
-                                                        &SubImpact::max_indentation_error,
-                                                        &SubImpact::residual_indentation_error,
-                                                        &SubImpact::striker_velocity_error,
-                                                        &SubImpact::opening_error};
-
-void set_errors(const Judge& judge, std::size_t i, SubImpact& s) {
-  s.start_error = judge.time_error(2 * i);
-  s.end_error.reset();
-  if (s.end) s.end_error = judge.time_error(2 * i + 1);
-  s.peak_force_error = judge.value_error(i, &SubImpact::peak_force, judge.least_force_error(i));
-  s.impulse_error = judge.value_error(i, &SubImpact::impulse);
-  s.max_indentation_error =
-      judge.value_error(i, &SubImpact::max_indentation, judge.least_indentation_error(i));
-  s.residual_indentation_error = judge.value_error(i, &SubImpact::residual_indentation);
-  s.striker_velocity_error = judge.value_error(i, &SubImpact::striker_velocity);
-  s.opening_error.reset();
-  if (s.opening) s.opening_error = judge.opening_error(i);
-  for (const auto error : errors) {
-    if (s.*error && !std::isfinite(*(s.*error))) (s.*error).reset();
-  }
-}
-
 std::string descriptions_of(std::span<const RunBeside> beside) {
   std::vector<std::string> all;
   for (const RunBeside& run : beside) all.push_back(run.of.description);
   return fmt::format("{}", fmt::join(all, ", "));
-}
-
-// Judges sub-impacts and flights. `support_lost`: of set_support_errors().
-void judge_rows(const Case& input, Result& run, std::span<const RunBeside> beside,
-                ErrorEstimate& estimate, double support_lost = HUGE_VAL) {
-  const Judge judge(input, run, beside);
-  double strictness = 1.0;
-  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
-    SubImpact& s = run.sub_impacts[i];
-    s.certain = true;
-    s.probability = 1.0;
-    const SubImpact& before = run.sub_impacts[i > 0 ? i - 1 : 0];
-    if (s.zone != before.zone || s.subzone != before.subzone) strictness = 1.0;
-    if (s.start > support_lost) strictness = after_uncertain;
-    set_errors(judge, i, s);
-    if (const auto doubt = judge.doubt_of(i, strictness)) {
-      strictness = after_uncertain;
-      s.certain = false;
-      s.doubt = doubt;
-      s.probability = judge.probability(i);
-    }
-    if (const auto flight = judge.doubt_of_flight(i)) {
-      estimate.uncertain_flights.push_back({i, *flight});
-    }
-  }
-  if (run.closest_approach) run.closest_approach->error = judge.approach_error();
 }
 
 // Whether it is proven for this run and for those beside it that no contact follows the last one,

@@ -1,15 +1,11 @@
 #include "subimpact/study/judgement/event_errors.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "study/judgement/totals.h"
 
 namespace subimpact {
 namespace {
 
-double end_of(const SubImpact& s) {
-  return s.end.value_or(std::numeric_limits<double>::infinity());
-}
+double end_of(const SubImpact& s) { return s.end.value_or(HUGE_VAL); }
 
 double overlap(const SubImpact& a, const SubImpact& b) {
   return std::min(end_of(a), end_of(b)) - std::max(a.start, b.start);
@@ -22,36 +18,22 @@ bool close(const SubImpact& a, const SubImpact& b) {
   return std::min(std::abs(a.start - b.start), std::abs(*a.end - *b.end)) < 0.5 * longer;
 }
 
-// The entry of `others` that overlaps `here` most, if any does.
-std::optional<std::size_t> best_partner(const SubImpact& here,
-                                        const std::vector<SubImpact>& others) {
-  std::optional<std::size_t> best;
-  double most = 0.0;
-  auto first = std::partition_point(others.begin(), others.end(), [&](const SubImpact& other) {
-    return end_of(other) <= here.start;
-  });
-  for (; first != others.end() && first->start < end_of(here); ++first) {
-    if (overlap(here, *first) > most) {
-      most = overlap(here, *first);
-      best = static_cast<std::size_t>(first - others.begin());
-    }
-  }
-  return best;
+const SubImpact* best_partner(const SubImpact& here, const std::vector<SubImpact>& others) {
+  return most_overlapping(here.start, end_of(here), others, end_of);
 }
 
-bool correspond(const Result& run, const NearMiss& a, const Result& other, const NearMiss& b) {
-  return a.kind == b.kind && first_in_doubt(run, a) == first_in_doubt(other, b);
-}
+bool is_match(const MatchedPair& pair) { return pair.first && pair.second; }
 
 std::optional<std::size_t> nearest(const Result& run, const NearMiss& here, const Result& other) {
   std::optional<std::size_t> best;
+  double least = HUGE_VAL;
   for (std::size_t i = 0; i < other.near_misses.size(); ++i) {
     const NearMiss& there = other.near_misses[i];
-    if (!correspond(run, here, other, there)) continue;
-    const auto distance = [&](std::size_t k) {
-      return std::abs(other.near_misses[k].time - here.time);
-    };
-    if (!best || distance(i) < distance(*best)) best = i;
+    const bool correspond =
+        here.kind == there.kind && first_in_doubt(run, here) == first_in_doubt(other, there);
+    if (!correspond || !(std::abs(there.time - here.time) < least)) continue;
+    least = std::abs(there.time - here.time);
+    best = i;
   }
   return best;
 }
@@ -63,11 +45,11 @@ std::vector<MatchedPair> match_sub_impacts(const std::vector<SubImpact>& first,
   std::vector<MatchedPair> pairs;
   std::size_t next = 0;  // of second
   for (std::size_t i = 0; i < first.size(); ++i) {
-    const std::optional<std::size_t> partner = best_partner(first[i], second);
-    const bool mutual = partner && *partner >= next && close(first[i], second[*partner]) &&
-                        best_partner(second[*partner], first) == i;
+    const SubImpact* partner = best_partner(first[i], second);
+    const bool mutual = partner && partner >= second.data() + next && close(first[i], *partner) &&
+                        best_partner(*partner, first) == &first[i];
     if (mutual) {
-      for (; next < *partner; ++next) pairs.push_back({std::nullopt, next});
+      for (; &second[next] != partner; ++next) pairs.push_back({std::nullopt, next});
       pairs.push_back({i, next++});
     } else {
       // Sub-impacts that end before this one come before it.
@@ -82,10 +64,7 @@ std::vector<MatchedPair> match_sub_impacts(const std::vector<SubImpact>& first,
 }
 
 std::size_t n_leading_matches(const std::vector<MatchedPair>& pairs) {
-  const auto unmatched = std::find_if(pairs.begin(), pairs.end(), [](const MatchedPair& pair) {
-    return !pair.first || !pair.second;
-  });
-  return static_cast<std::size_t>(unmatched - pairs.begin());
+  return static_cast<std::size_t>(std::ranges::find_if_not(pairs, is_match) - pairs.begin());
 }
 
 std::vector<LengthBeside> lengths_beside(const std::vector<SubImpact>& all, std::size_t number) {
@@ -107,41 +86,34 @@ Counterparts counterparts(const std::vector<SubImpact>& base, const std::vector<
   Counterparts found{std::vector<const SubImpact*>(base.size(), nullptr),
                      std::vector<bool>(base.size(), false)};
   for (const MatchedPair& pair : pairs) {
-    if (pair.first && pair.second) found.of[*pair.first] = &other[*pair.second];
+    if (is_match(pair)) found.of[*pair.first] = &other[*pair.second];
   }
-  // The next pair that both runs have, from each on.
-  std::vector<const MatchedPair*> next_match(pairs.size() + 1, nullptr);
-  for (std::size_t i = pairs.size(); i-- > 0;) {
-    next_match[i] = pairs[i].first && pairs[i].second ? &pairs[i] : next_match[i + 1];
-  }
-  const MatchedPair* last_match = nullptr;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const MatchedPair& here = pairs[i];
-    if (here.first && here.second) {
-      last_match = &here;
+  const auto none = pairs.end();
+  auto last_match = none, next_match = std::ranges::find_if(pairs, is_match);
+  for (const MatchedPair& here : pairs) {
+    if (is_match(here)) {
+      last_match = next_match;
+      next_match = std::find_if(next_match + 1, none, is_match);
       continue;
     }
     const SubImpact& alone = here.first ? base[*here.first] : other[*here.second];
     bool is_part = false;  // of a contact that the other run has whole
-    for (const MatchedPair* beside : {last_match, next_match[i]}) {
-      if (beside == nullptr) continue;
+    for (const auto beside : {last_match, next_match}) {
+      if (beside == none) continue;
       const SubImpact& whole = here.first ? other[*beside->second] : base[*beside->first];
       if (!(overlap(alone, whole) > 0.0)) continue;
       found.of[*beside->first] = nullptr;
       is_part = true;
     }
-    if (here.first || is_part) continue;
-    if (const MatchedPair* next = next_match[i]) {
-      found.follows_new_one[*next->first] = true;
-    }
+    if (here.first || is_part || next_match == none) continue;
+    found.follows_new_one[*next_match->first] = true;
   }
   return found;
 }
 
 std::size_t first_in_doubt(const Result& run, const NearMiss& near_miss) {
-  const auto after = std::upper_bound(
-      run.sub_impacts.begin(), run.sub_impacts.end(), near_miss.time,
-      [](double time, const SubImpact& sub_impact) { return time < sub_impact.start; });
+  const auto after =
+      std::ranges::upper_bound(run.sub_impacts, near_miss.time, {}, &SubImpact::start);
   const auto begun = static_cast<std::size_t>(after - run.sub_impacts.begin());
   return near_miss.kind == NearMissKind::opening && begun > 0 ? begun - 1 : begun;
 }

@@ -16,14 +16,8 @@ constexpr double ample = 6.0;  // of the parts that resolve contacts
 constexpr int low_order = 2;
 
 double cells_of_a_part(const Case& input) {
-  switch (input.model.mesh) {
-    case MeshKind::hermite:
-      return 2.0;
-    case MeshKind::spectral:
-      return 8.0;
-    default:
-      return 1.0;
-  }
+  const MeshKind mesh = input.model.mesh;
+  return mesh == MeshKind::hermite ? 2.0 : mesh == MeshKind::spectral ? 8.0 : 1.0;
 }
 
 // sqrt(E I/(rho A)), m2/s.

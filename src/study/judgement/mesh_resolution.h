@@ -1,19 +1,12 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
-
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {
 
-/// The mesh size that resolves short contacts. A contact or a separation of duration T sends out
-/// bending waves of the length
-///
-///     lambda = 2 pi sqrt(c r T/pi),  c r = sqrt(E I/(rho A)).
-///
-/// A part of a mesh counts as one cell, an element as two, a spectral element as eight.
+/// The mesh size that resolves short contacts, by the bending waves that they send out
+/// (docs/theory/errors.md, "Too coarse a mesh").
 
 /// Number of parts over the whole length that puts eight cells into the waves of contacts as short
 /// as `contact_time` (s), from 64 cells to `most_cells`.
@@ -36,9 +29,7 @@ int parts_that_take_strike(const Case& input);
 int parts_at_first(const Case& input, const ResolvedSettings& used);
 
 /// The shortest contact or separation that the mesh of a case can show, s: the waves of a shorter
-/// one have fewer than 3.5 cells. On such a mesh the striker meets the mass of a node rather than
-/// the beam, and coarser meshes agree with each other on a contact that does not end so in the
-/// beam. 0 for a rigid beam and for meshes of the caller's own.
+/// one have fewer than 3.5 cells. 0 for a rigid beam and for meshes of the caller's own.
 double shortest_contact_shown(const Case& input);
 
 /// Why a sub-impact is not shown by the mesh, none if it is: its contact, or the separation after

@@ -6,7 +6,6 @@
 #include "numerics/estimates.h"
 #include "study/judgement/judge.h"
 #include "subimpact/study/judgement/event_errors.h"
-#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {
@@ -164,24 +163,6 @@ double end_of(const ZoneSummary& zone, const Result& run) {
   return zone.end.value_or(run.outcome.time);
 }
 
-// The zone of another run, of those it has, that overlaps one of a run most; null if none does.
-const ZoneSummary* counterpart(const ZoneSummary& here, const Result& run, const Result& other,
-                               const std::vector<ZoneSummary>& zones) {
-  const ZoneSummary* best = nullptr;
-  double most = 0.0;
-  const double end = end_of(here, run);
-  auto there = std::ranges::partition_point(
-      zones, [&](const ZoneSummary& zone) { return end_of(zone, other) <= here.start; });
-  for (; there != zones.end() && there->start < end; ++there) {
-    const double overlap =
-        std::min(end_of(*there, other), end) - std::max(there->start, here.start);
-    if (!(overlap > most)) continue;
-    most = overlap;
-    best = &*there;
-  }
-  return best;
-}
-
 // The number of sub-impacts of a zone. Its error: how many of them, and of the flights after them,
 // are not certain; where there are any, or a run shows errors of totals alone, at least the
 // difference to each run beside from the zone's start to that of the next. 0 where all is certain.
@@ -213,8 +194,7 @@ Total count_of(const ZoneSummary& zone, std::size_t first, const Result& run,
   return count;
 }
 
-}  // namespace
-
+// The number of sub-impacts of a run, and its error, from those of its zones.
 Total sum_of_counts(const std::vector<ZoneTotals>& zones) {
   Total sum{0.0, 0.0};
   for (const auto& [start, end, impulse, count] : zones) {
@@ -223,6 +203,8 @@ Total sum_of_counts(const std::vector<ZoneTotals>& zones) {
   }
   return sum;
 }
+
+}  // namespace
 
 void set_totals(const Case& input, const Result& run, std::span<const RunBeside> beside,
                 ErrorEstimate& estimate) {
@@ -255,7 +237,9 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
     const auto total = [&](auto value) {
       return total_of(run, beside, usual_safety, [&](const Result& of) -> std::optional<double> {
         if (&of == &run) return value(zone, of);
-        const ZoneSummary* there = counterpart(zone, run, of, zones_of.at(&of));
+        const ZoneSummary* there =
+            most_overlapping(zone.start, end_of(zone, run), zones_of.at(&of),
+                             [&](const ZoneSummary& other) { return end_of(other, of); });
         return there ? std::optional<double>(value(*there, of)) : std::nullopt;
       });
     };

@@ -18,13 +18,27 @@ double largest_magnitude(const std::vector<Row>& rows, Value value) {
   return largest;
 }
 
-/// Sets the totals of an error estimate: numbers of the run as a whole, each with the largest of
-/// 3.8 gain |difference| over the runs beside it, summed over the parts (mean velocity of the beam:
-/// 5, dissipated energy: 5.5, largest force and indentation: 7; 1.5 times more for a part of one
-/// run). That of the largest displacement, moment or strain is at least what another place may
-/// exceed it by, to first order in the mesh (validation/truth/defaults). The error of a number of
-/// sub-impacts is that of sub-impacts and flights that are not certain, and where there are any at
-/// least the difference to a run beside; that of the run is the sum over its zones.
+/// Of things in order of time, the one that overlaps the time from `start` to `end` most; null:
+/// none does. `end_of`: the end of a thing (s).
+template <class Thing, class EndOf>
+const Thing* most_overlapping(double start, double end, const std::vector<Thing>& all,
+                              EndOf end_of) {
+  const Thing* best = nullptr;
+  double most = 0.0;
+  auto there =
+      std::ranges::partition_point(all, [&](const Thing& thing) { return end_of(thing) <= start; });
+  for (; there != all.end() && there->start < end; ++there) {
+    const double overlap = std::min(end_of(*there), end) - std::max(there->start, start);
+    if (!(overlap > most)) continue;
+    most = overlap;
+    best = &*there;
+  }
+  return best;
+}
+
+/// Sets the totals of an error estimate: numbers of the run as a whole (docs/theory/errors.md). The
+/// error of the largest displacement, moment or strain is at least what another place may exceed it
+/// by, to first order in the mesh (validation/truth/defaults).
 void set_totals(const Case& input, const Result& run, std::span<const RunBeside> beside,
                 ErrorEstimate& estimate);
 
@@ -32,8 +46,5 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
 /// totals, where each run beside that counts for existence has such a contact. Returns since when
 /// (s) one of them, or the run, lacks one that the other has; infinite if none does.
 double set_support_errors(Result& run, std::span<const RunBeside> beside);
-
-/// The number of sub-impacts of a run, and its error, from those of its zones.
-Total sum_of_counts(const std::vector<ZoneTotals>& zones);
 
 }  // namespace subimpact

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "case/meshes.h"
-#include "case/problem.h"
 #include "study/judgement/totals.h"
 #include "study/model/body_runs.h"
 #include "study/model/coarse_strike.h"
@@ -82,7 +81,7 @@ class Study {
     if (!result.contact_over) errors_.value.contact_end.reset();
     touch_ = result.sub_impacts.front().start;
     energy_ = std::max(result.used.initial_energy, 0.0) + std::max(result.final_energies.work, 0.0);
-    largest_force_ = largest_possible_force(with_elastic_contact(input_), result);
+    largest_force_ = largest_possible_force(input_, result);
     variants_ = body_variants(input_, yields(result));
   }
 

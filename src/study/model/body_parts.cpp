@@ -1,9 +1,7 @@
 #include "study/model/body_runs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "case/meshes.h"
 #include "case/problem.h"
@@ -164,9 +162,7 @@ std::vector<BodyVariant> body_variants(const Case& input, bool yields) {
     all.push_back({BodyPart::poisson,
                    {with(input, [](Scene& scene) { *scene.beam.poisson += larger_poisson; })}});
   }
-  if (const auto steel = with_steel_contact(input)) {
-    all.push_back({BodyPart::nose, {steel->input}});
-  }
+  if (const auto steel = with_steel_contact(input)) all.push_back({BodyPart::nose, {*steel}});
   if (input.assumed.contains("scene.gravity")) {
     all.push_back({BodyPart::gravity, {under_gravity(input)}});
   }
@@ -182,14 +178,10 @@ std::vector<BodyVariant> body_variants(const Case& input, bool yields) {
   return all;
 }
 
-Case with_elastic_contact(Case input) {
+double largest_possible_force(Case input, const Result& result) {
   input.scene.beam.yield_stress = HUGE_VAL;
   input.scene.contact.yield_pressure.reset();
   input.scene.contact.pressure_by_depth = false;
-  return input;
-}
-
-double largest_possible_force(const Case& input, const Result& result) {
   const Scene& scene = input.scene;
   if (!(scene.contact_damping() == 0.0)) return HUGE_VAL;  // NaN before a flight
   const Beam& beam = scene.beam;
@@ -206,25 +198,25 @@ double largest_possible_force(const Case& input, const Result& result) {
   return law->contact_force({}, law->indentation_at(result.used.initial_energy + load * way));
 }
 
-std::optional<SteelContact> with_steel_contact(const Case& input) {
+std::optional<Case> with_steel_contact(const Case& input) {
   constexpr double modulus = 210e9, poisson = 0.3;
   if (input.parts.contact_law) return std::nullopt;
   const auto& law = built_in_contact_law(input.scene.contact.kind);
   if (!uses_key(constants_given(input, law), "contact.beam_poisson")) return std::nullopt;
-  SteelContact steel{input, {}};
-  Contact& contact = steel.input.scene.contact;
-  Beam& beam = steel.input.scene.beam;
+  Case steel = input;
+  Contact& contact = steel.scene.contact;
+  Beam& beam = steel.scene.beam;
+  const bool is_plane_open = beam.fixed && beam.youngs_modulus == 0.0;
+  if (contact.striker_modulus && !is_plane_open) return std::nullopt;
   if (!contact.striker_modulus) {
     contact.striker_modulus = modulus;
     contact.striker_poisson = poisson;
-    steel.keys = {"contact.striker_modulus", "contact.striker_poisson"};
   }
-  if (beam.fixed && beam.youngs_modulus == 0.0) {
+  if (is_plane_open) {
     beam.youngs_modulus = modulus;
     beam.poisson = contact.beam_poisson = poisson;
-    steel.keys.insert(steel.keys.end(), {"beam.youngs_modulus", "beam.poisson"});
   }
-  return steel.keys.empty() ? std::nullopt : std::optional(std::move(steel));
+  return steel;
 }
 
 }  // namespace subimpact

@@ -1,7 +1,6 @@
 #include "study/model/body_runs.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "case/meshes.h"
 #include "case/problem.h"

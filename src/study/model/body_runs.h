@@ -2,12 +2,9 @@
 
 #include <cmath>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "study/refinement/refinement.h"
-#include "subimpact/simulate/observer.h"
-#include "subimpact/simulate/result.h"
 
 namespace subimpact {
 
@@ -22,22 +19,16 @@ struct BodyVariant {
 /// Those that a run can show. `yields`: whether sections of the run do.
 std::vector<BodyVariant> body_variants(const Case& input, bool yields);
 
-/// The case with a contact that never yields.
-Case with_elastic_contact(Case input);
+/// A bound on the force (N) of any contact of the run: a contact law that never yields, loaded for
+/// the first time by all energy that striker, beam, gravity and loads can put into it, as by a
+/// striker on an anvil. Momentum is not used: a light beam gives less. Infinite for a law with
+/// damping.
+double largest_possible_force(Case input, const Result& result);
 
-/// A bound on the force (N) of any contact of the run: the contact law loaded for the first time
-/// by all energy that striker, beam, gravity and loads can put into it, as by a striker on an
-/// anvil. Momentum is not used: a light beam gives less. Infinite for a law with damping.
-double largest_possible_force(const Case& input, const Result& result);
-
-/// The scene with what the case leaves open about the bodies in contact, and the program takes as
-/// rigid, of steel (210 GPa, 0.3), and the keys that would settle it.
-struct SteelContact {
-  Case input;
-  std::vector<std::string> keys;
-};
-/// Of the nose, and of a plane; nothing where their moduli are given or the law does not use them.
-std::optional<SteelContact> with_steel_contact(const Case& input);
+/// The scene with the nose, or a plane, of steel (210 GPa, 0.3) where the case leaves it open,
+/// which the program takes as rigid; nothing where their moduli are given or the law does not use
+/// them.
+std::optional<Case> with_steel_contact(const Case& input);
 
 /// Coarse runs beside a run, with one thing changed: how long they are, and on which meshes.
 class BodyRuns {

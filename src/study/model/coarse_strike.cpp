@@ -1,7 +1,6 @@
 #include "study/model/coarse_strike.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "case/meshes.h"
 #include "case/problem.h"

@@ -1,6 +1,5 @@
 #include "subimpact/study/model.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -208,12 +207,17 @@ std::optional<std::string> moved(const Case& input, const Result& without, const
                 relative(a.permanent_set.value_or(0.0), b.permanent_set.value_or(0.0), 1e-9));
 }
 
-// The end of a run over the first contacts, s: so many times their time scale after the touch.
-double end_after(double contact_times, const Case& input) {
-  const Case coarse = coarse_case(input, cells_to_choose, input.end_time);
+// The end of a run over the first contacts, s: so many times their time scale after the touch. None
+// where the case cannot be run.
+std::optional<double> end_after(double contact_times, const Case& input) {
   const double touch = input.scene.striker.first_touch();
-  const double span = contact_times * resolve(coarse).settings().contact_time;
-  return std::min(input.end_time, span + (std::isfinite(touch) ? touch : 0.0));
+  try {
+    const Case coarse = coarse_case(input, cells_to_choose, input.end_time);
+    const double span = contact_times * resolve(coarse).settings().contact_time;
+    return std::min(input.end_time, span + (std::isfinite(touch) ? touch : 0.0));
+  } catch (const InvalidCase&) {
+    return std::nullopt;
+  }
 }
 
 bool left_validity(const std::optional<Result>& run) {
@@ -222,25 +226,17 @@ bool left_validity(const std::optional<Result>& run) {
 
 // Whether a law ends within the first contacts of a coarse run.
 bool law_ends(const Case& input) {
-  try {
-    const double end = end_after(longest_horizon, input);
-    const int cells = affordable_cells(input, end, cells_to_choose, most_work);
-    return cells > 0 && left_validity(coarse_run(coarse_case(input, cells, end)));
-  } catch (const InvalidCase&) {
-    return false;
-  }
+  const std::optional<double> end = end_after(longest_horizon, input);
+  const int cells = end ? affordable_cells(input, *end, cells_to_choose, most_work) : 0;
+  return cells > 0 && left_validity(coarse_run(coarse_case(input, cells, *end)));
 }
 
 // Two runs, without and with shear, over longer and longer times until a difference shows.
 ShearTest test_shear(const Case& without, const Case& with) {
   ShearTest not_tested{Shear::not_tested, "a coarse mesh cannot test whether shear matters"};
-  double end = 0.0;
-  try {
-    end = end_after(first_horizon, with);
-  } catch (const InvalidCase&) {
-    return not_tested;
-  }
-  for (;; end = std::min(growth_of_horizon * end, with.end_time)) {
+  const std::optional<double> first = end_after(first_horizon, with);
+  if (!first) return not_tested;
+  for (double end = *first;; end = std::min(growth_of_horizon * end, with.end_time)) {
     const int cells = affordable_cells(with, end, cells_to_choose, most_work);
     if (cells == 0) return not_tested;
     const auto a = coarse_run(coarse_case(without, cells, end));

@@ -26,9 +26,9 @@ constexpr double evaluations_of_springs = 1.5;
 constexpr double evaluations_per_flow = 10.0;
 
 Case with_count(const Case& input, double count) {
-  const std::optional<RefinedRun> sized = on_other_mesh(input, count / mesh_count(input));
+  const std::optional<Case> sized = on_other_mesh(input, count / mesh_count(input));
   Case other = input;
-  if (sized) other.model = sized->input.model;
+  if (sized) other.model = sized->model;
   return other;
 }
 
@@ -103,8 +103,7 @@ const char* Refinement::size_key() const {
 }
 
 const char* Refinement::fixed_key() const {
-  if (!open_.size || !mesh_order(first_)) return size_key();
-  return nullptr;
+  return !open_.size || !mesh_order(first_) ? size_key() : nullptr;
 }
 
 double evaluation_cost(const Case& input) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 #include "case/meshes.h"
 #include "case/problem.h"
@@ -13,7 +12,6 @@
 #include "study/judgement/mesh_resolution.h"
 #include "study/method_choice.h"
 #include "study/refinement/refinement.h"
-#include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
 namespace {

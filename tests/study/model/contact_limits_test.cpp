@@ -51,19 +51,16 @@ TEST(SteelContact, IsOfANoseOrAPlaneWithoutModuliAndSoftensTheContact) {
   Case input = ball_on_plane(150e6);
   const auto steel = with_steel_contact(input);
   ASSERT_TRUE(steel);
-  EXPECT_EQ(steel->keys,
-            (std::vector<std::string>{"contact.striker_modulus", "contact.striker_poisson"}));
-  EXPECT_NO_THROW(check(steel->input));
-  EXPECT_LT(simulate(steel->input).max_force, simulate(input).max_force);
-  EXPECT_FALSE(with_steel_contact(steel->input));  // nothing is open any more
+  EXPECT_NO_THROW(check(*steel));
+  EXPECT_LT(simulate(*steel).max_force, simulate(input).max_force);
+  EXPECT_FALSE(with_steel_contact(*steel));  // nothing is open any more
 
-  Case plane = steel->input;
+  Case plane = *steel;
   plane.scene.beam.youngs_modulus = 0.0;
   const auto steel_plane = with_steel_contact(plane);
   ASSERT_TRUE(steel_plane);
-  EXPECT_EQ(steel_plane->keys, (std::vector<std::string>{"beam.youngs_modulus", "beam.poisson"}));
-  EXPECT_NO_THROW(check(steel_plane->input));
-  EXPECT_LT(simulate(steel_plane->input).max_force, simulate(plane).max_force);
+  EXPECT_NO_THROW(check(*steel_plane));
+  EXPECT_LT(simulate(*steel_plane).max_force, simulate(plane).max_force);
 }
 
 TEST(SteelContact, IsNotThatOfAGivenStiffness) {

@@ -42,7 +42,7 @@ Case open_scene(std::uint64_t seed, int number, const strikes::Budget& budget, d
 Reference reference_of(const Case& finest, double factor) {
   Reference reference;
   try {
-    const Case fine = on_other_mesh(finest, factor)->input;
+    const Case fine = *on_other_mesh(finest, factor);
     const std::vector<CaseBeside> cases = cases_beside(fine);
     Result best;
     const std::vector<RunBeside> beside = simulate_beside(fine, cases, 1, {}, nullptr, best);

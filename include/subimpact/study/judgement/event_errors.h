@@ -3,15 +3,11 @@
 /// Methods and their settings, sub-impacts of two runs in pairs, and errors of event times against
 /// a reference.
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "subimpact/case/case.h"
-#include "subimpact/case/simulate.h"
-#include "subimpact/simulate/result.h"
 #include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
@@ -36,10 +32,9 @@ struct Setting {
 /// The case with that setting. Throws InvalidCase for an unknown method.
 Case with_setting(const Case& input, const Setting& setting);
 
-/// From coarse to fine. Methods with error control: rtol from 1e-2 to 1e-12 in decades. Then, by
-/// methods that take a fixed step, steps each half of the previous one, down to 1/256 of 0.9 of the
-/// critical step of central differences: from that step by central differences, from 4 times it by
-/// other explicit methods, from 32 times by implicit ones and in modes. Throws InvalidCase for an
+/// From coarse to fine: by methods with error control rtol from 1e-2 to 1e-12 in decades, then, by
+/// methods that take a fixed step, halved steps from the longest that the method may be stable at
+/// down to 1/256 of 0.9 of the critical step of central differences. Throws InvalidCase for an
 /// unknown method or table, and where the method cannot run the case.
 std::vector<Setting> settings_of(const Case& input, const std::string& method);
 
@@ -92,9 +87,8 @@ Counterparts counterparts(const std::vector<SubImpact>& base, const std::vector<
 std::size_t first_in_doubt(const Result& run, const NearMiss& near_miss);
 
 /// For each near miss of a run the index of the corresponding near miss of another run, or none: of
-/// the same kind, in the same contact or separation, each the nearest in time to the other. Only
-/// contacts and separations up to the separation after the first `n_matched` sub-impacts are
-/// searched. The list ends with the last near miss among these.
+/// the same kind, in the same contact or separation, each the nearest in time to the other; up to
+/// the separation after the first `n_matched` sub-impacts.
 std::vector<std::optional<std::size_t>> match_near_misses(const Result& run, const Result& other,
                                                           std::size_t n_matched);
 
@@ -119,12 +113,10 @@ struct Reference {
 Reference run_reference(const Case& input, double rtol, const Progress& progress = {},
                         Jobs jobs = 2);
 
-/// The same at rtol = 1e-12, up to a horizon.
-///
-/// A sub-impact counts if it is certain and its stated error is at most `largest_error` (s):
-/// sub-impacts that graze amplify small differences until no computation can predict the next
-/// event. The horizon lies in the middle of the separation after the last that counts, or at the
-/// case's end if that is separation too. Throws InvalidCase if nothing counts too.
+/// The same at rtol = 1e-12, up to a horizon: the middle of the separation after the last
+/// sub-impact that counts, or the case's end. A sub-impact counts if it is certain and its stated
+/// error is at most `largest_error` (s): sub-impacts that graze amplify small differences until no
+/// computation can predict the next event. Throws InvalidCase if nothing counts too.
 Reference compute_reference(const Case& input, double largest_error, const Progress& progress = {},
                             Jobs jobs = 2);
 

@@ -13,19 +13,14 @@
 
 namespace subimpact {
 
-struct RefinedRun {
-  Case input;
-  std::string description;
-};
-
 /// The order at which event times of a case converge with its mesh: 2 for cells; 4 for Hermite
 /// elements, or 1 if sections may yield; nothing for a rigid beam.
 std::optional<int> mesh_order(const Case& input);
 
 /// The case on a mesh with `factor` times as many cells or elements, as nearly as the mesh allows;
-/// nothing for a rigid beam or if too few would be left. A fixed step above
-/// the stability limit of the finer mesh is reduced to 0.9 of that limit.
-std::optional<RefinedRun> on_other_mesh(const Case& input, double factor);
+/// nothing for a rigid beam or if too few would be left. A fixed step is reduced to 0.9 of the
+/// stability limit of the mesh, where it is above.
+std::optional<Case> on_other_mesh(const Case& input, double factor);
 
 /// Number of cells or elements over the whole length; 1 for a rigid beam.
 int mesh_count(const Case& input);
@@ -62,32 +57,21 @@ struct RunBeside {
 };
 
 /// The cases beside a case that show the error of its mesh and of its integration in time together,
-/// with a matching accuracy in time: on meshes coarser by the factors 0.85, 0.7 (unless sections
-/// may yield and the mesh resolves contacts 2.5 times) and 0.5; finer by 1.2 and 1.45 if the strike
-/// is too near an end for coarser ones. If the mesh cannot be coarser, they differ in time only.
+/// on coarser meshes with a matching accuracy in time (docs/theory/errors.md), or on finer ones if
+/// the strike is too near an end. If the mesh cannot be coarser, they differ in time only.
 std::vector<CaseBeside> cases_beside(const Case& input);
 /// The cases that show the error in time only, on the mesh of the case.
 std::vector<CaseBeside> cases_beside_in_time(const Case& input);
 
 /// The cases for a mesh that is given: cases in time, for the errors of sub-impacts, and one on
-/// another mesh, for totals and the effect of finer meshes: twice as many cells by central
-/// differences, or 0.7 times as many parts if the method is that already or the mesh has no cells.
+/// another mesh, for totals and the effect of finer meshes.
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input);
 
-/// Judges `run` by the runs beside it: sets certain, probability (the share of the runs that have
-/// the sub-impact), doubt and errors of its sub-impacts, and Result::error_estimate with the totals
-/// (docs/theory.md, "Error estimates"; measured in validation/truth/judgement). e: the largest gain
-/// |difference| over the runs beside; d: the median of e |indentation rate| over seven events.
-/// Errors: for a time 2.7 max(e, d/rate), at least the bound due to free ends; for a value 3.2
-/// times its e, at least the median of seven; for totals see set_totals(). A sub-impact is certain
-/// if each run that counts for existence has one counterpart, as has any other whose own error is
-/// small enough, if 0.8 d is below its indentation and the openings of the gap next to it, if its
-/// errors (at most twice the median of seven) are below its duration and the separations, and if
-/// near misses within it keep margins above 2.5 e; after an uncertain one of its sub-zone, errors
-/// count 1.5 times. Near misses
-/// decide whether a flight is certain. Where only one run shows a part, factors are 1.5 times as
-/// large. Contact is over if this is proven for all runs that count for existence and the final
-/// velocities of their strikers differ by less than 2.5 % of the strike's.
+/// Judges `run` by the runs beside it (docs/theory/errors.md; measured in
+/// validation/truth/judgement): sets certain, probability (the share of the runs that have the
+/// sub-impact), doubt and errors of its sub-impacts, Result::contact_over, and
+/// Result::error_estimate with the totals. Errors are safety factors times the differences between
+/// the runs; those of times are also as large as the error of the indentation makes them.
 void judge(const Case& input, Result& run, std::span<const RunBeside> beside);
 
 /// Number of threads for parallel runs; results do not depend on it.
