@@ -153,7 +153,10 @@ class Study {
       if (!(value().*figure)) continue;
       Number& number = changes.figures.*figure;
       const bool early = decided(figure) <= runs_->until();
-      const bool is_later = early && has_early && (!number || exceeds(figure, with, other_early));
+      const bool is_largest =
+          figure == &StrikeFigures::peak_force || figure == &StrikeFigures::max_indentation;
+      const bool exceeds = is_largest && with.*figure > other_early.*figure;
+      const bool is_later = early && has_early && (!number || exceeds);
       if (early ? has_early && !is_later : !is_whole) continue;
       const StrikeFigures& one = early && !is_later ? base_early : base;
       const StrikeFigures& two = early && !is_later ? other_early : with;
@@ -189,13 +192,6 @@ class Study {
       if (!result_.sub_impacts[i].end) continue;
       changes.rows[i][1] = two ? distance(one->end, two->end) : std::nullopt;
     }
-  }
-
-  // Whether a largest number of a whole run comes after what is decided early.
-  static bool exceeds(Figure figure, const StrikeFigures& whole, const StrikeFigures& early) {
-    const bool is_largest =
-        figure == &StrikeFigures::peak_force || figure == &StrikeFigures::max_indentation;
-    return is_largest && whole.*figure > early.*figure;
   }
 
   Changes changes_by(const BodyVariant& variant) {

@@ -26,14 +26,6 @@ Case with(const Case& input, Change change) {
   return other;
 }
 
-// The contact law of a changed scene in the scene as it is.
-template <class Change>
-Case with_law_of(const Case& input, Change change) {
-  Case other = input;
-  other.parts.contact_law = make_contact_law(with(input, change).scene);
-  return other;
-}
-
 BodyVariant shear_of(const Case& input) {
   if (input.scene.beam.shears()) {
     return {BodyPart::shear_coefficient, {with(input, [](Scene& scene) {
@@ -79,15 +71,15 @@ std::optional<BodyVariant> law_of(const Case& input) {
     if (contact.kind == ContactKind::foundation) return law;
     if (const auto wall = on_wall(input)) law.cases.push_back(*wall);
   } else {
-    law.cases.push_back(with_law_of(input, [&](Scene& scene) {
-      Beam& beam = scene.beam;
-      if (is_line) {
-        beam.poisson = scene.contact.beam_poisson = 0.0;  // plane stress
-      } else {
-        beam.thickness *= deeper;
-        if (beam.section.height) *beam.section.height *= deeper;
-      }
-    }));
+    Scene changed = input.scene;  // for the law alone
+    Beam& beam = changed.beam;
+    if (is_line) {
+      beam.poisson = changed.contact.beam_poisson = 0.0;  // plane stress
+    } else {
+      beam.thickness *= deeper;
+      if (beam.section.height) *beam.section.height *= deeper;
+    }
+    law.cases.emplace_back(input).parts.contact_law = make_contact_law(changed);
   }
   if (contact.kind != ContactKind::hertz && std::isfinite(input.scene.beam.yield_stress)) {
     const double first = is_line ? yield_pressure_over_stress_of_line : yield_pressure_over_stress;
