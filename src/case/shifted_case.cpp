@@ -7,11 +7,8 @@
 #include "case/problem.h"
 
 namespace subimpact {
-namespace {
 
 constexpr double largest_shift = 1e-3;  // that the range of a key must leave room for
-
-}  // namespace
 
 bool is_number_of_scene(const CaseKey& key) {
   return key.type == KeyType::number &&

@@ -9,11 +9,8 @@
 #include "subimpact/study/judgement/judgement.h"
 
 namespace subimpact {
-namespace {
 
 constexpr double reference_tolerance = 1e-11;
-
-}  // namespace
 
 Comparison compare(const Case& input, const std::vector<std::string>& methods,
                    const std::function<void(const std::string&)>& announce,
