@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "numerics/units.h"
 
@@ -71,6 +70,13 @@ Number duration_error(const SubImpact& s) {
   return s.start_error && s.end_error ? Number(*s.start_error + *s.end_error) : std::nullopt;
 }
 
+// The larger of the errors of the body of start and end; none where it is not known.
+Number body_error(const SubImpact& s) {
+  const bool is_known =
+      (s.start_body_error || s.start_error == 0.0) && (s.end_body_error || !s.end);
+  return is_known ? std::max(s.start_body_error, s.end_body_error) : std::nullopt;
+}
+
 template <auto member>
 Number in(const SubImpact& s) {
   return s.*member;
@@ -80,6 +86,7 @@ Number in(const SubImpact& s) {
 constexpr Quantity quantities[] = {
     {"start", "", as_instant, 13, 4, true, in<&SubImpact::start>, in<&SubImpact::start_error>},
     {"end", "", as_instant, 13, 4, true, in<&SubImpact::end>, in<&SubImpact::end_error>},
+    {"+- real", "", as_instant, least_number_width, 0, true, body_error, nullptr},
     {"duration", "", as_instant, 11, 4, false, duration, duration_error},
     {"peak force", "", as_force, 11, 2, false, in<&SubImpact::peak_force>, in<&SubImpact::peak_force_error>},
     {"impulse", "", as_impulse, 11, 6, false, in<&SubImpact::impulse>, in<&SubImpact::impulse_error>},
@@ -141,6 +148,7 @@ Cell cell_of(const ColumnOfTable& column, const Result& result, const SubImpact&
   const auto& [quantity, unit, decimals] = column;
   if (!quantity.value(s)) return {};
   const double value = *quantity.value(s) * unit.per_si;
+  if (quantity.value == body_error) return {with_digits(value, 2), {}};
   if (!result.error_estimate) return {with_decimals(value, decimals), {}};
   const double error = quantity.error(s).value_or(HUGE_VAL) * unit.per_si;
   const bool is_certain = s.certain.value_or(true);
@@ -159,22 +167,6 @@ Cell cell_of(const ColumnOfTable& column, const Result& result, const SubImpact&
   const bool is_large = error > (is_certain ? silent_error : loud_error) * std::abs(value);
   const bool is_shown = !quantity.is_instant ? is_large : is_certain || rounding->decimals < least;
   return {text, is_shown ? rounding->error : std::string()};
-}
-
-// The larger of the errors of the body of start and end; none where it is not known.
-Number body_error(const SubImpact& s) {
-  const bool is_known =
-      (s.start_body_error || s.start_error == 0.0) && (s.end_body_error || !s.end);
-  return is_known ? std::max(s.start_body_error, s.end_body_error) : std::nullopt;
-}
-bool has_body_error(const SubImpact& s) { return body_error(s).has_value(); }
-std::vector<Cell> body_cells(const std::vector<SubImpact>& all, const ReadUnit& unit) {
-  std::vector<Cell> cells;
-  for (const SubImpact& s : all) {
-    const Number error = body_error(s);
-    cells.push_back({error ? with_digits(unit.per_si * *error, 2) : std::string(), {}});
-  }
-  return cells;
 }
 
 // Puts the decimal points of a column under each other, and words to the right; each text then has
@@ -316,6 +308,8 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
   };
   add_column({"", "no.", least_number_width}, numbers, number_width);
   for (const Quantity& quantity : quantities) {
+    const auto is_there = [&](const SubImpact& s) { return quantity.value(s).has_value(); };
+    if (quantity.value == body_error && std::ranges::none_of(all, is_there)) continue;
     const ColumnOfTable column = column_of(quantity, result);
     std::vector<Cell> cells;
     for (const SubImpact& s : all) {
@@ -325,10 +319,6 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
     auto [texts, width] = column_texts(cells, plus_minus);
     add_column({quantity.name, quantity.before_unit + column.unit.name, quantity.least_width},
                std::move(texts), width);
-    if (quantity.value != in<&SubImpact::end> || !std::ranges::any_of(all, has_body_error))
-      continue;
-    std::tie(texts, width) = column_texts(body_cells(all, column.unit), plus_minus);
-    add_column({"+- real", column.unit.name, least_number_width}, std::move(texts), width);
   }
   return table;
 }
