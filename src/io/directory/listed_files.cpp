@@ -66,8 +66,6 @@ Fingerprint fingerprint_of(std::istream& file) {
   unsigned int length = 0;
   EVP_DigestFinal_ex(context.get(), digest.data(), &length);
   for (unsigned int i = 0; i < length; ++i) fingerprint.sha256 += fmt::format("{:02x}", digest[i]);
-  file.clear();
-  file.seekg(0);
   return fingerprint;
 }
 

@@ -18,7 +18,7 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Fingerprint of the whole stream, which is then rewound.
+/// Of what is left of a stream.
 Fingerprint fingerprint_of(std::istream& file);
 
 struct Manifest {
