@@ -27,12 +27,6 @@ constexpr std::size_t largest_case = 1'000'000;  // bytes
 constexpr std::size_t most_problems = 100;       // reported at once
 constexpr const char* by_default = "default";    // as if the file did not have the key
 
-// The unit in which a number is given; empty: none, or no number.
-std::string unit_given(const CaseKey& key, const KeyValue& value) {
-  const auto* text = std::get_if<std::string>(&value);
-  return text != nullptr && key.type == KeyType::number ? std::string(split_unit(*text).unit) : "";
-}
-
 // On a command line quotes are a nuisance: what is no TOML is a text where one is wanted.
 std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& text) {
   const bool is_word = std::ranges::find(key.choices, text, &Choice::name) != key.choices.end();
@@ -79,7 +73,7 @@ class Reader {
       const bool is_table = known == nullptr && is_case_table(name);
       if (is_outermost && is_table) tables_[name] = where;
       if (known != nullptr) {
-        read_value(*known, node, where);
+        take(*known, key_value_of(*known, json_of(node)), where, true, describe_type(node));
       } else if (is_table && inner != nullptr) {
         read(*inner, name);
       } else if (is_table && is_outermost) {
@@ -109,13 +103,8 @@ class Reader {
       given_.erase(key->name);
       return;
     }
-    if (std::optional<KeyValue> value = parse_setting(*key, setting.value)) {
-      given_[key->name] = {in_unit_of(*key, *value), setting.origin, false,
-                           unit_given(*key, *value)};
-    } else {
-      refused_.push_back(key->name);
-      complain(setting.origin, key->name + " " + refusal(*key, "'" + setting.value + "'"));
-    }
+    take(*key, parse_setting(*key, setting.value), setting.origin, false,
+         "'" + setting.value + "'");
   }
 
   LoadedCase finish(const KeyChooser& choose) {
@@ -181,14 +170,17 @@ class Reader {
   // Further problems are not looked for: their messages take longer than reading the file.
   bool is_full() const { return problems_.size() >= most_problems; }
 
-  void read_value(const CaseKey& key, const toml::node& node, const std::string& where) {
-    std::optional<KeyValue> value = key_value_of(key, json_of(node));
-    if (value) {
-      given_[key.name] = {in_unit_of(key, *value), where, true, unit_given(key, *value)};
-    } else {
+  // `found`: what is there, if it is no value of the key.
+  void take(const CaseKey& key, const std::optional<KeyValue>& value, const std::string& where,
+            bool in_file, const std::string& found) {
+    if (!value) {
       refused_.push_back(key.name);
-      complain(where, key.name + " " + refusal(key, describe_type(node)));
+      return complain(where, key.name + " " + refusal(key, found));
     }
+    const auto* text = std::get_if<std::string>(&*value);
+    const bool may_have_unit = text != nullptr && key.type == KeyType::number;
+    given_[key.name] = {in_unit_of(key, *value), where, in_file,
+                        may_have_unit ? std::string(split_unit(*text).unit) : ""};
   }
 
   // Fractions of the beam's length in place of lengths; whether there were any.
@@ -234,7 +226,7 @@ class Reader {
   void complain_of_missing_keys(const Case& read) {
     std::vector<std::string> missing_tables;
     for (const CaseKey& key : case_keys()) {
-      const bool refused = std::find(refused_.begin(), refused_.end(), key.name) != refused_.end();
+      const bool refused = std::ranges::count(refused_, key.name) > 0;
       if (!key.required || given_.contains(key.name) || refused) continue;
       if (key.is_needless && key.is_needless(read)) continue;
       if (given_.contains("beam.material") && is_value_of_material(key.name)) continue;
