@@ -72,7 +72,7 @@ std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOption
   return options.error_bars == "off" ? ErrorBars::off : ErrorBars::all;
 }
 
-WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOptions& options,
+WithinRun run_loaded(const LoadedCase& loaded, const RunOptions& options,
                      const InterruptListener& listener, ResultWriter& files) {
   ProgressDisplay progress(loaded.value.end_time, options.quiet, listener);
   RunRequest request;
@@ -84,7 +84,6 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
     files.restart();
     return &files;
   };
-  request.resolved = std::move(resolved);
   request.body_errors = options.body_errors == "on";
   return run_as_asked(loaded.value, loaded.given, std::move(request));
 }
@@ -180,15 +179,14 @@ int run(RunOptions& options) {
   LoadedCase loaded = options.input.load();
   error_bars_of(loaded, options);
   // Refuses what cannot be modelled before anything is written.
-  ResolvedRun resolved = with_places(loaded, [&] { return resolve(loaded.value); });
-  with_places(loaded, [&] { check_memory(resolved.settings()); });
+  with_places(loaded, [&] { check_memory(resolve(loaded.value).settings()); });
   ResultWriter files(
       options.directory.empty() ? options.input.directory_with("-results") : options.directory,
       loaded.value);
   const std::vector<std::string> doubts = print_doubts(loaded, options.quiet);
   InterruptListener listener;
   const WithinRun finished = with_places(loaded, [&] {
-    WithinRun run = run_loaded(loaded, std::move(resolved), options, listener, files);
+    WithinRun run = run_loaded(loaded, options, listener, files);
     run.result.next_steps = next_steps(options, loaded.given, run);
     make_answers(run.input, run.result);
     return run;

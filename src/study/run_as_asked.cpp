@@ -19,21 +19,16 @@ std::vector<CaseBeside> cases_asked_for(const Case& input, const RunRequest& req
 }
 
 // `beside`: the cases that judge the run, if they are known.
-WithinRun run_as_given(const Case& input, RunRequest& request,
+WithinRun run_as_given(const Case& input, const RunRequest& request,
                        const std::vector<CaseBeside>* beside) {
   WithinRun run{input, {}, {}};
-  RowSink* rows = request.rows ? request.rows() : nullptr;
-  if (request.error_bars == ErrorBars::off && request.resolved) {
-    run.result = simulate(std::move(*request.resolved), request.progress, nullptr, rows);
-    return run;
-  }
   resolve(input);  // whatever is wrong with the case itself
-  maker_of(request)(input, beside != nullptr ? *beside : cases_asked_for(input, request), rows,
-                    run.result, run.beside);
+  maker_of(request)(input, beside != nullptr ? *beside : cases_asked_for(input, request),
+                    request.rows ? request.rows() : nullptr, run.result, run.beside);
   return run;
 }
 
-WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& request,
+WithinRun run_once(const Case& input, const GivenKeys& given, const RunRequest& request,
                    const std::vector<CaseBeside>* beside = nullptr) {
   const auto start = std::chrono::steady_clock::now();
   const std::optional<OpenChoices> open = choices_left(input, given, request.error_bars);
@@ -89,7 +84,6 @@ WithinRun strike_repeatedly(Case next, const GivenKeys& given, RunRequest& reque
       std::exchange(request.body_errors, false) && request.error_bars != ErrorBars::off;
   NoRows none;
   const auto rows = std::exchange(request.rows, [&none] { return &none; });
-  request.resolved.reset();
   std::vector<StrikeRow> strikes;
   std::optional<WithinRun> run;
   std::vector<CaseBeside> beside;

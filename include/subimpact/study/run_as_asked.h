@@ -102,8 +102,6 @@ struct RunRequest : WithinOptions {
   /// from coarser meshes; otherwise cases_beside_on_given_mesh(). Must be empty if the case has
   /// accuracy.event_times.
   std::optional<ErrorBars> error_bars;
-  /// The case, if it is already resolved; used by a run without error bars.
-  std::optional<ResolvedRun> resolved;
   bool body_errors = true;  ///< whether those are estimated (study/model.h)
 };
 
