@@ -25,9 +25,9 @@ std::vector<std::string> choose_scene(Case& input, const GivenKeys& given);
 inline constexpr double usual_poisson = 0.3;
 
 /// Sets Result::body_errors and those of sub-impacts: how far the real beam may be from the model
-/// of a run, by the parts of docs/model.md, those in Case::assumed among them. Most come from coarse
-/// runs with one thing changed, which take a sixth of the counted work of the run and those beside
-/// it, at least some 4e6.
+/// of a run, by the parts of docs/model.md, those in Case::assumed among them. Most come from
+/// coarse runs with one thing changed, which take a sixth of the counted work of the run and those
+/// beside it, at least some 4e6.
 ///
 /// Nothing is set where `progress` stops it, for runs that did not complete or without contact, on
 /// an earlier state, and with parts of the caller's own.
