@@ -53,6 +53,13 @@ struct Changes {
   }
 };
 
+Case with_elastic_contact(Case input) {
+  input.scene.beam.yield_stress = HUGE_VAL;
+  input.scene.contact.yield_pressure.reset();
+  input.scene.contact.pressure_by_depth = false;
+  return input;
+}
+
 Number first_touch(const Result& run) {
   return run.sub_impacts.empty() ? Number() : Number(run.sub_impacts.front().start);
 }
@@ -81,7 +88,7 @@ class Study {
     if (!result.contact_over) errors_.value.contact_end.reset();
     touch_ = result.sub_impacts.front().start;
     energy_ = std::max(result.used.initial_energy, 0.0) + std::max(result.final_energies.work, 0.0);
-    largest_force_ = largest_possible_force(input_, result);
+    largest_force_ = largest_possible_force(with_elastic_contact(input_), result);
     variants_ = body_variants(input_, yields(result));
   }
 

@@ -170,10 +170,7 @@ std::vector<BodyVariant> body_variants(const Case& input, bool yields) {
   return all;
 }
 
-double largest_possible_force(Case input, const Result& result) {
-  input.scene.beam.yield_stress = HUGE_VAL;
-  input.scene.contact.yield_pressure.reset();
-  input.scene.contact.pressure_by_depth = false;
+double largest_possible_force(const Case& input, const Result& result) {
   const Scene& scene = input.scene;
   if (!(scene.contact_damping() == 0.0)) return HUGE_VAL;  // NaN before a flight
   const Beam& beam = scene.beam;

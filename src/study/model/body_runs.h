@@ -19,11 +19,10 @@ struct BodyVariant {
 /// Those that a run can show. `yields`: whether sections of the run do.
 std::vector<BodyVariant> body_variants(const Case& input, bool yields);
 
-/// A bound on the force (N) of any contact of the run: a contact law that never yields, loaded for
-/// the first time by all energy that striker, beam, gravity and loads can put into it, as by a
-/// striker on an anvil. Momentum is not used: a light beam gives less. Infinite for a law with
-/// damping.
-double largest_possible_force(Case input, const Result& result);
+/// A bound on the force (N) of any contact of the run: the contact law loaded for the first time
+/// by all energy that striker, beam, gravity and loads can put into it, as by a striker on an
+/// anvil. Momentum is not used: a light beam gives less. Infinite for a law with damping.
+double largest_possible_force(const Case& input, const Result& result);
 
 /// The scene with the nose, or a plane, of steel (210 GPa, 0.3) where the case leaves it open,
 /// which the program takes as rigid; nothing where their moduli are given or the law does not use
