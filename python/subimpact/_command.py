@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 from . import _core
 from ._errors import CaseError, OutputError
-from ._text import printable, say
+from ._text import printable, say, show
 from .case import Case
 from .sweep.engines import n_cores
 from .sweep.interruption import Interruption
@@ -95,17 +95,15 @@ class Command:
         if study.base.outcome not in ("completed", "stopped"):
             say(f"subimpact: {study.base.message}")
             return 2 if study.base.outcome == "left-validity" else 3
-        if not options.quiet:
-            print(printable(f"{case['title'] or 'untitled case'}\n\n{study.report()}"), end="")
+        is_shown = options.quiet or show(printable(f"{case['title'] or 'untitled case'}\n\n{study.report()}"))
         if options.out:
             try:
                 study.write(options.out)
             except OutputError as error:
                 say(f"subimpact: {error}")
                 return 3
-            if not options.quiet:
-                print(f"\n{self._name}.csv in {printable(options.out)}")
+            is_shown = is_shown and (options.quiet or show(f"\n{self._name}.csv in {printable(options.out)}\n"))
         if study.interrupted:
             say("subimpact: interrupted; the keys above are those whose runs had ended")
             return 128 + (number or signal.SIGINT)
-        return 0
+        return 0 if is_shown else 3

@@ -37,6 +37,18 @@ def say(text: str) -> None:
         pass
 
 
+def show(text: str) -> bool:
+    """Whether stdout takes the text; a reader who has left needs none."""
+    try:
+        print(text, end="", flush=True)
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # for what is flushed at the end
+        if not isinstance(error, BrokenPipeError):
+            say(f"subimpact: standard output cannot be written ({error.strerror}); free the disk or write the output elsewhere")
+            return False
+    return True
+
+
 def is_unicode(text: str) -> bool:
     """Whether the text can be written as UTF-8: it has no lone surrogates."""
     try:

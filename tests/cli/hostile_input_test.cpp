@@ -104,6 +104,7 @@ TEST(StandardOutput, ThatCannotBeWrittenEndsEveryCommandWithStatus3) {
   for (const std::string command :
        {"--help", "--version", "keys", "keys --schema", "methods", "columns", "explain case.toml",
         "run case.toml --set time.end=1e-5 --set model.segments=21 --out other",
+        "sensitivity case.toml --set time.end=1e-5 --set model.segments=21",
         "plot run --only timeline --format svg", "report run"}) {
     EXPECT_EQ(shell("subimpact " + command + " > /dev/full 2> errors", directory.path), 3)
         << command;

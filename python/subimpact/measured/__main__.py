@@ -15,7 +15,7 @@ import matplotlib
 from .. import _core
 from .._command import Parser
 from .._errors import OutputError, ResultsError
-from .._text import path_text, printable, say
+from .._text import path_text, printable, say, show
 from ..plot.directory import identity_of, save
 from ..result import read_results
 from . import Alignment, align, read
@@ -88,7 +88,7 @@ def _write(run: str, directory: str, alignment: Alignment) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Exit status: 0 done; 2 bad command line or files; 3 files cannot be written."""
+    """Exit status: 0 done; 2 bad command line or files; 3 files or answers cannot be written."""
     matplotlib.use("Agg")
     options = vars(_parser().parse_args(arguments))
     how = {name: options.pop(name) for name in ("shift", "gain", "low_pass", "gauge")}
@@ -99,10 +99,8 @@ def main(arguments: list[str] | None = None) -> int:
     except ResultsError as error:
         say(f"subimpact: {error}")
         return 2
-    print(f"  {'read as':<18}  {printable('; '.join(signal.assumed))}")
-    for answer in alignment.answers():
-        print(f"  {answer['name']:<18}  {answer['value']}\n{'':22}{answer['note']}")
-    sys.stdout.flush()
+    answers = "".join(f"  {answer['name']:<18}  {answer['value']}\n{'':22}{answer['note']}\n" for answer in alignment.answers())
+    is_shown = show(f"  {'read as':<18}  {printable('; '.join(signal.assumed))}\n{answers}")
     try:
         _write(run, out or os.path.join(run, "figures"), alignment)
     except OSError as error:  # OutputError is one
@@ -110,7 +108,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 3
     if alignment.doubt:
         say(f"subimpact: warning: {alignment.doubt}")
-    return 0
+    return 0 if is_shown else 3
 
 
 if __name__ == "__main__":

@@ -238,7 +238,7 @@ def page(files: Files, dygraphs: str, measured: str = "") -> str:
         **_certainty(summary, report),
         **_answers(summary),
         "no_charts": paragraphs([missing], "warning", "Zoomable charts are missing: "),
-        "columns": "".join(f"<th>{escaped(each['name'])}<small>{escaped(re.sub('^u', 'µ', each['unit']))}</small></th>" for each in columns),
+        "columns": "".join(f"<th>{in_print(each['name'])}<small>{escaped(re.sub('^u', 'µ', each['unit']))}</small></th>" for each in columns),
         "sub_impacts": "".join(_rows(report, hits)),
         "flights": "".join(f"<p>After sub-impact {each['after_index']} there may be another one: {in_print(each['reason'])}.</p>\n"
                            for each in flights[:_MOST_FLIGHTS])

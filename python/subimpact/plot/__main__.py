@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Sequence
 
@@ -11,7 +10,7 @@ import matplotlib
 
 from .._command import Parser
 from .._errors import OutputError, ResultsError
-from .._text import printable, say
+from .._text import printable, say, show
 from .directory import FORMATS, draw_directory
 
 
@@ -27,19 +26,6 @@ Examples:
 
 Exit status: 0 done; 2 bad command line, files that no run has written, or Python without what is needed; 3 a figure
 could not be drawn or written, the others are."""
-
-
-def _print(text: str) -> bool:
-    """Whether stdout takes the text; a reader who has left needs none."""
-    try:
-        print(text, end="", flush=True)
-    except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # for what is flushed at the end
-        if not isinstance(error, BrokenPipeError):
-            say(f"subimpact: standard output cannot be written ({error.strerror}); free the disk or write the "
-                 "output elsewhere")
-            return False
-    return True
 
 
 def _listed(text: str) -> list[str]:
@@ -75,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
              for name, caption in drawn.captions.items()]
     if lines:
         lines.append(f"\nfigures in {printable(drawn.directory)}\n")
-    if not _print("".join(lines)):
+    if not show("".join(lines)):
         return 3
     for reason in drawn.left_out:
         say(f"subimpact: note: not drawn: {reason}")

@@ -12,7 +12,7 @@ from typing import Any
 
 from .._command import Display, Parser
 from .._errors import CaseError, PlanError, StoreError
-from .._text import printable, say
+from .._text import printable, say, show
 from .plan import Plan
 from .running import sweep
 
@@ -82,14 +82,12 @@ def _run(options: argparse.Namespace, executor: Any) -> int:
         done.write_hdf5()
     for note in done.notes:
         _say(note)
-    if not options.quiet:
-        counts = ", ".join(f"{count} {name}" for name, count in sorted(done.outcomes.items()))
-        print(f"{len(plan)} cases: {counts or 'none run'}"
-              f"{f', {done.n_missing} missing' if done.n_missing else ''}")
-        print(f"files in {printable(str(done.directory))}")
+    counts = ", ".join(f"{count} {name}" for name, count in sorted(done.outcomes.items())) or "none run"
+    missing = f", {done.n_missing} missing" if done.n_missing else ""
+    is_shown = options.quiet or show(f"{len(plan)} cases: {counts}{missing}\nfiles in {printable(str(done.directory))}\n")
     is_whole = not done.n_missing or options.only is not None
     most = 2 * done.outcomes.get("completed", 0) >= sum(done.outcomes.values())
-    return 0 if is_whole and most and "crashed" not in done.outcomes else 3
+    return 0 if is_shown and is_whole and most and "crashed" not in done.outcomes else 3
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
