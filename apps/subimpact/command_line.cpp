@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 #include <ranges>
@@ -59,6 +60,43 @@ std::string usage_error(const CLI::App* program, const CLI::Error& error) {
   return printable(fmt::format("{}: {}; see {} --help\n", command, message, command));
 }
 
+CLI::Option* added(CLI::App& to, const Option& option) {
+  if (const auto* flag = std::get_if<bool*>(&option.value)) {
+    return to.add_flag(option.name, **flag, option.meaning);
+  }
+  return std::visit([&](auto* value) { return to.add_option(option.name, *value, option.meaning); },
+                    option.value);
+}
+
+void add(CLI::App& to, const Option& option) {
+  CLI::Option* made = added(to, option);
+  if (option.refusal) made->check(option.refusal);
+  if (!option.choices.empty()) made->check(CLI::IsMember(option.choices));
+  if (option.is_required) made->required();
+  if (std::holds_alternative<std::vector<std::string>*>(option.value)) {
+    if (option.list == Option::List::by_commas) made->delimiter(',');
+    if (option.list == Option::List::one_by_one) made->allow_extra_args(false);
+  }
+  if (std::holds_alternative<double*>(option.value)) made->capture_default_str();
+  if (!option.needs.empty()) made->needs(to.get_option(option.needs));
+  for (const std::string& other : option.excludes) made->excludes(to.get_option(other));
+}
+
+void add(CLI::App& program, int& status, const Command& command) {
+  CLI::App* made = program.add_subcommand(command.name, command.description);
+  for (const Option& option : command.options) add(*made, option);
+  made->footer(command.footer);
+  if (command.takes_rest) made->prefix_command();
+  if (command.has_own_help) made->set_help_flag();
+  made->callback([&command, &status, made] {
+    try {
+      status = command.run(command.takes_rest ? made->remaining() : std::vector<std::string>());
+    } catch (const UsageError& error) {
+      throw CLI::ValidationError(error.option, error.what());
+    }
+  });
+}
+
 // --- the manual page, made from the commands and options themselves ------------------------------
 
 // A line of text as groff sets it.
@@ -94,7 +132,14 @@ void print_options(const CLI::App& app) {
   }
 }
 
-void print_manual(const CLI::App& program) {
+// A command that prints its own help does so here, set as it is.
+void print_own_help(const Command& command) {
+  print(".PP\n.nf\n.tr -\\-\n");
+  command.run({"--help"});
+  print(".tr --\n.fi\n");
+}
+
+void print_manual(const CLI::App& program, const std::vector<Command>& commands) {
   print(".TH SUBIMPACT 1 \"\" \"subimpact {}\" \"User commands\"\n", project_version());
   print(".SH NAME\nsubimpact \\- sub\\-impacts of a rigid mass that strikes a beam\n");
   print(".SH SYNOPSIS\n.B subimpact\n.I COMMAND\n[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n");
@@ -106,10 +151,9 @@ void print_manual(const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands({})) {
     print(".SS subimpact {}\n", roff(command->get_name()));
     print_text(command->get_description() + ".");
-    if (const char* module = module_of(command->get_name())) {  // its own help, set as it is
-      print(".PP\n.nf\n.tr -\\-\n");
-      run_python(module, {"--help"});
-      print(".tr --\n.fi\n");
+    const auto own = std::ranges::find(commands, command->get_name(), &Command::name);
+    if (own != commands.end() && own->has_own_help) {
+      print_own_help(*own);
       continue;
     }
     print_options(*command);
@@ -123,17 +167,10 @@ void print_manual(const CLI::App& program) {
 
 }  // namespace
 
-CLI::App& add_command(Program& program, const char* name, const char* description,
-                      const std::string& footer, std::function<int(const CLI::App&)> run) {
-  CLI::App* command = program.add_subcommand(name, description);
-  command->footer(footer);
-  command->callback([=, &program] { program.status = run(*command); });
-  return *command;
-}
-
-int run_command_line(int argc, char** argv) {
-  Program program("Finds every sub-impact when a rigid mass strikes an elasto-plastic beam.",
-                  "subimpact");
+int run_command_line(int argc, char** argv, const std::vector<Command>& commands) {
+  int status = done;
+  CLI::App program("Finds every sub-impact when a rigid mass strikes an elasto-plastic beam.",
+                   "subimpact");
   program.footer(
       "Examples:\n"
       "  subimpact new hammer > case.toml\n"
@@ -148,16 +185,16 @@ int run_command_line(int argc, char** argv) {
                            "Print the versions of program and libraries");
   program.require_subcommand(1);
   program.failure_message(usage_error);
-  for (const auto add : {add_new_command, add_run_command, add_compare_command,
-                         add_work_precision_command, add_stability_command, add_explain_command,
-                         add_report_command, add_python_commands, add_listing_commands}) {
-    add(program);
-  }
-  add_command(program, "manual", "Print the manual page of all commands, for man",
-              "Example:\n  subimpact manual | man -l -", [&](const CLI::App&) -> int {
-                print_manual(program);
-                return done;
-              });
+  for (const Command& command : commands) add(program, status, command);
+  const Command manual = {"manual",
+                          "Print the manual page of all commands, for man",
+                          {},
+                          "Example:\n  subimpact manual | man -l -",
+                          [&](const auto&) -> int {
+                            print_manual(program, commands);
+                            return done;
+                          }};
+  add(program, status, manual);
   if (const auto message = unknown_command(program, argc, argv)) {
     print_error("subimpact: {}\n", *message);
     return refused;
@@ -167,7 +204,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? done : refused;
   }
-  return program.status;
+  return status;
 }
 
 }  // namespace subimpact::app

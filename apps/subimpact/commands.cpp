@@ -39,42 +39,42 @@ std::string not_empty(const std::string& text) {
   return text.empty() ? "is empty; give a value, or leave the option out" : std::string();
 }
 
-CLI::Option* add_directory(CLI::App& command, std::string& directory, const std::string& meaning) {
-  return command.add_option("--out", directory, meaning)->check(not_empty);
+Option of_directory(std::string& directory, const std::string& meaning) {
+  return {"--out", &directory, meaning, not_empty};
 }
 
-void CaseOptions::add_case(CLI::App& command) {
-  command.add_option("CASE", file, "Case file (TOML); `subimpact keys` lists its keys")->required();
-  command
-      .add_option("--set", settings,
-                  "table.key=value, instead of the value in the case file; table.key=default: as "
-                  "if the file did not have the key (but for a title); may be repeated: the last "
-                  "one holds")
-      ->allow_extra_args(false);
+std::vector<Option> CaseOptions::of_case() {
+  Option set = {
+      "--set", &settings,
+      "table.key=value, instead of the value in the case file; table.key=default: as if the "
+      "file did not have the key (but for a title); may be repeated: the last one holds"};
+  set.list = Option::List::one_by_one;
+  Option of_file = {"CASE", &file, "Case file (TOML); `subimpact keys` lists its keys"};
+  of_file.is_required = true;
+  return {of_file, set};
 }
 
-void CaseOptions::add_method(CLI::App& command) {
-  command
-      .add_option("--method", method,
-                  "Time integration method, instead of solver.method; see `subimpact methods`")
-      ->check(not_empty);
+std::vector<Option> CaseOptions::of_case_and_method() {
+  return of_case() +
+         std::vector<Option>{
+             {"--method", &method,
+              "Time integration method, instead of solver.method; see `subimpact methods`",
+              not_empty}};
 }
 
-void CaseOptions::add_within(CLI::App& command) {
-  command
-      .add_option("--within", within,
-                  "Bound on the error of every event time, with its unit: 1us. The program "
-                  "chooses what the case leaves open of mesh, method and tolerance. Instead of "
-                  "accuracy.event_times")
-      ->check(unless_with_unit("1us"));
+Option CaseOptions::of_within() {
+  return {"--within", &within,
+          "Bound on the error of every event time, with its unit: 1us. The program "
+          "chooses what the case leaves open of mesh, method and tolerance. Instead of "
+          "accuracy.event_times",
+          unless_with_unit("1us")};
 }
 
-void CaseOptions::add_opening(CLI::App& command) {
-  command
-      .add_option("--opening", opening,
-                  "Contacts between which striker and beam part by less than this length, with its "
-                  "unit, are joined: 1um. Instead of output.opening")
-      ->check(unless_with_unit("1um"));
+Option CaseOptions::of_opening() {
+  return {"--opening", &opening,
+          "Contacts between which striker and beam part by less than this length, with its "
+          "unit, are joined: 1um. Instead of output.opening",
+          unless_with_unit("1um")};
 }
 
 LoadedCase CaseOptions::load() const {
@@ -97,37 +97,29 @@ std::string CaseOptions::directory_with(const std::string& ending) const {
 
 Jobs n_processors() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-void add_jobs(CLI::App& command, Jobs& jobs) {
-  const auto fits = [](const std::string& text) {
-    const double n = std::strtod(text.c_str(), nullptr);
-    return n >= 1.0 && n <= 1024.0 && n == std::floor(n);
-  };
-  command
-      .add_option("--jobs", jobs,
-                  "Largest number of runs in parallel; results do not depend on it. Default: the "
-                  "number of processors")
-      ->check(refused_unless(fits, "a whole number from 1 to 1024"));
+Option of_jobs(Jobs& jobs) {
+  return {"--jobs", &jobs,
+          "Largest number of runs in parallel; results do not depend on it. Default: the "
+          "number of processors",
+          refused_unless(
+              [](const std::string& text) {
+                const double n = std::strtod(text.c_str(), nullptr);
+                return n >= 1.0 && n <= 1024.0 && n == std::floor(n);
+              },
+              "a whole number from 1 to 1024")};
 }
 
-void add_seconds(CLI::App& command, const char* name, double& seconds, const std::string& meaning) {
+Option of_seconds(const char* name, double& seconds, const std::string& meaning) {
   const auto fits = [](const std::string& text) {
     const double value = std::strtod(text.c_str(), nullptr);
     return value > 0.0 && std::isfinite(value);
   };
-  command.add_option(name, seconds, meaning)
-      ->check(refused_unless(fits, "seconds, finite and above 0"))
-      ->capture_default_str();
+  return {name, &seconds, meaning, refused_unless(fits, "seconds, finite and above 0")};
 }
 
-CLI::Option* add_list(CLI::App& command, const char* name, std::vector<std::string>& values,
-                      const std::string& meaning) {
-  return command.add_option(name, values, meaning)->delimiter(',');
-}
-
-CLI::Option* add_choices(CLI::App& command, const char* name, std::vector<std::string>& values,
-                         const char* key, const std::string& meaning) {
-  return add_list(command, name, values, meaning)
-      ->check(CLI::IsMember(find_case_key(key)->choice_names()));
+Option of_choices(const char* name, std::vector<std::string>& values, const char* key,
+                  const std::string& meaning) {
+  return {name, &values, meaning, {}, find_case_key(key)->choice_names()};
 }
 
 std::vector<std::string> print_doubts(const LoadedCase& loaded, bool quiet) {

@@ -40,27 +40,32 @@ struct CaseOptions {
   std::string opening;      // empty, or a length with its unit
   bool may_repeat = false;  // whether the command takes repeat.strikes
 
-  void add_case(CLI::App& command);  ///< CASE and --set
-  void add_method(CLI::App& command);
-  void add_within(CLI::App& command);
-  void add_opening(CLI::App& command);
+  /// CASE and --set.
+  std::vector<Option> of_case();
+  /// These and --method.
+  std::vector<Option> of_case_and_method();
+  Option of_within();
+  Option of_opening();
   /// Throws CaseFileError.
   LoadedCase load() const;
   /// The case file's name without its ending, and this ending, in the current directory.
   std::string directory_with(const std::string& ending) const;
 };
 
-/// Options that several commands have. `add_directory`: --out.
-CLI::Option* add_directory(CLI::App& command, std::string& directory, const std::string& meaning);
-void add_jobs(CLI::App& command, Jobs& jobs);
-void add_seconds(CLI::App& command, const char* name, double& seconds, const std::string& meaning);
-/// A list of values, separated by commas; of a key that has choices.
-CLI::Option* add_list(CLI::App& command, const char* name, std::vector<std::string>& values,
-                      const std::string& meaning);
-CLI::Option* add_choices(CLI::App& command, const char* name, std::vector<std::string>& values,
-                         const char* key, const std::string& meaning);
+/// Options that several commands have. `of_directory`: --out.
+Option of_directory(std::string& directory, const std::string& meaning);
+Option of_jobs(Jobs& jobs);
+Option of_seconds(const char* name, double& seconds, const std::string& meaning);
+/// A list of values of a key that has choices.
+Option of_choices(const char* name, std::vector<std::string>& values, const char* key,
+                  const std::string& meaning);
 /// A refusal of an empty text, which would count as none.
 std::string not_empty(const std::string& text);
+
+inline std::vector<Option> operator+(std::vector<Option> first, const std::vector<Option>& more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
+}
 
 /// What `body` returns. An InvalidCase becomes a CaseFileError with the place of its key.
 template <class Body>
@@ -121,13 +126,9 @@ struct StudySession {
   }
 };
 
-void add_new_command(Program&), add_run_command(Program&), add_compare_command(Program&),
-    add_work_precision_command(Program&), add_stability_command(Program&),
-    add_explain_command(Program&), add_report_command(Program&), add_python_commands(Program&),
-    add_listing_commands(Program&);
-
-/// The module of a command that takes its arguments, and prints its help, itself; else null.
-const char* module_of(const std::string& command);
+Command new_command(), run_command(), compare_command(), work_precision_command(),
+    stability_command(), explain_command(), report_command();
+std::vector<Command> python_commands(), listing_commands();
 
 /// Runs a module of Python's package subimpact with these arguments, its streams being those of the
 /// program, and returns its exit status: 128 and the number of a signal that ended it. Where a

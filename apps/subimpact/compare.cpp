@@ -93,36 +93,34 @@ int run_comparison(CompareOptions& options) {
                      "; the methods above are those that had ended");
 }
 
-void add_options(CLI::App& command, CompareOptions& options) {
-  options.input.add_case(command);
-  options.input.add_method(command);
-  options.input.add_opening(command);
-  add_list(command, "--methods", options.methods,
-           "Methods to compare, separated by commas; a method's table after a colon, its "
-           "solver.events after a plus sign")
-      ->excludes("--method");
-  add_choices(command, "--theories", options.theories, "beam.theory",
-              "Beam theories to compare instead, separated by commas: event times of each, with "
-              "their errors, and how much later they come than by the first")
-      ->excludes("--methods");
-  add_choices(command, "--laws", options.laws, "contact.law",
-              "Contact laws to compare instead, separated by commas, each with the constants that "
-              "the case gives for it")
-      ->excludes("--methods")
-      ->excludes("--theories");
-  add_directory(command, options.directory,
-                "Directory for comparison.csv and matches.csv; made if missing. Without it nothing "
-                "is written")
-      ->excludes("--theories")
-      ->excludes("--laws");
+std::vector<Option> options_of(CompareOptions& options) {
+  Option methods = {"--methods", &options.methods,
+                    "Methods to compare, separated by commas; a method's table after a colon, "
+                    "its solver.events after a plus sign"};
+  methods.excludes = {"--method"};
+  Option theories =
+      of_choices("--theories", options.theories, "beam.theory",
+                 "Beam theories to compare instead, separated by commas: event times of each, "
+                 "with their errors, and how much later they come than by the first");
+  theories.excludes = {"--methods"};
+  Option laws = of_choices("--laws", options.laws, "contact.law",
+                           "Contact laws to compare instead, separated by commas, each with the "
+                           "constants that the case gives for it");
+  laws.excludes = {"--methods", "--theories"};
+  Option directory = of_directory(options.directory,
+                                  "Directory for comparison.csv and matches.csv; made if missing. "
+                                  "Without it nothing is written");
+  directory.excludes = {"--theories", "--laws"};
+  return options.input.of_case_and_method() +
+         std::vector<Option>{options.input.of_opening(), methods, theories, laws, directory};
 }
 
 }  // namespace
 
-void add_compare_command(Program& program) {
-  add_command(
-      program, "compare", "Run one scene by several methods, beam theories or contact laws",
-      run_comparison, add_options,
+Command compare_command() {
+  return command_with(
+      "compare", "Run one scene by several methods, beam theories or contact laws", run_comparison,
+      options_of,
       "Every method runs at solver.step if it is given, else at solver.rtol or its default step. "
       "The reference is nystrom at rtol 1e-11, or erk for a damped strike; its error is stated "
       "from "

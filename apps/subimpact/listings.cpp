@@ -47,49 +47,48 @@ struct ListingOptions {
 int print_keys(ListingOptions& options) {
   const std::string listing = options.as_schema ? case_schema() : key_listing(options.word);
   if (listing.empty()) {
-    throw CLI::ValidationError("WORD",
-                               "no key has \"" + options.word + "\" in it; all: subimpact keys");
+    throw UsageError("WORD", "no key has \"" + options.word + "\" in it; all: subimpact keys");
   }
   print("{}", listing);
   return done;
 }
 
-void add_explain_options(CLI::App& command, CaseOptions& options) {
+std::vector<Option> explain_options(CaseOptions& options) {
   options.may_repeat = true;
-  options.add_case(command);
-  options.add_method(command);
-  options.add_within(command);
+  return options.of_case_and_method() + std::vector<Option>{options.of_within()};
 }
 
-void add_new_options(CLI::App& command, NewOptions& options) {
-  command
-      .add_option("SCENE", options.scene, "One of these; without it, all are listed, a line each")
-      ->check(CLI::IsMember(scenes));
+std::vector<Option> new_options(NewOptions& options) {
+  return {{"SCENE",
+           &options.scene,
+           "One of these; without it, all are listed, a line each",
+           {},
+           scenes}};
 }
 
-void add_key_options(CLI::App& command, ListingOptions& options) {
-  command.add_option("WORD", options.word,
-                     "List only keys with this word in their name, meaning or choices");
-  command
-      .add_flag("--schema", options.as_schema,
-                "Print a JSON schema (draft 2020-12) of the case file instead, for editors")
-      ->excludes("WORD");
+std::vector<Option> key_options(ListingOptions& options) {
+  Option schema = {"--schema", &options.as_schema,
+                   "Print a JSON schema (draft 2020-12) of the case file instead, for editors"};
+  schema.excludes = {"WORD"};
+  return {
+      {"WORD", &options.word, "List only keys with this word in their name, meaning or choices"},
+      schema};
 }
 
-void add_listing_command(Program& program, const char* name, const char* description,
-                         const std::string& footer, std::string (*listing)()) {
-  add_command(program, name, description, footer, [=](const CLI::App&) -> int {
-    print("{}", listing());
-    return done;
-  });
+Command listing_command(const char* name, const char* description, std::string footer,
+                        std::string (*listing)()) {
+  return {name, description, {}, std::move(footer), [=](const auto&) -> int {
+            print("{}", listing());
+            return done;
+          }};
 }
 
 }  // namespace
 
-void add_explain_command(Program& program) {
-  add_command(
-      program, "explain", "Show what a run of a case will take and how it will be modelled",
-      explain, add_explain_options,
+Command explain_command() {
+  return command_with(
+      "explain", "Show what a run of a case will take and how it will be modelled", explain,
+      explain_options,
       "Examples:\n"
       "  subimpact explain case.toml\n"
       "  subimpact explain case.toml --within 1us\n"
@@ -97,32 +96,33 @@ void add_explain_command(Program& program) {
       "Exit status: 0 done; 2 bad command line or case file.");
 }
 
-void add_new_command(Program& program) {
-  add_command(program, "new", "Print a commented case file to begin with", print_new_case,
-              add_new_options,
-              "Examples:\n"
-              "  subimpact new\n"
-              "  subimpact new cantilever > case.toml && subimpact run case.toml");
+Command new_command() {
+  return command_with("new", "Print a commented case file to begin with", print_new_case,
+                      new_options,
+                      "Examples:\n"
+                      "  subimpact new\n"
+                      "  subimpact new cantilever > case.toml && subimpact run case.toml");
 }
 
-void add_listing_commands(Program& program) {
-  add_listing_command(program, "methods", "List the time integration methods and Butcher tables",
-                      "Example:\n  subimpact methods", method_listing);
-  add_command(
-      program, "keys", "List the keys of a case file: units, allowed values, defaults", print_keys,
-      add_key_options,
-      "Examples:\n  subimpact keys\n  subimpact keys yield\n  subimpact keys --schema > "
-      "subimpact.schema.json\n\n"
-      "A case file that begins with `#:schema ./subimpact.schema.json` is then completed and\n"
-      "checked by editors that use Taplo (in VS Code: the extension Even Better TOML).");
-  add_listing_command(program, "columns",
+std::vector<Command> listing_commands() {
+  return {
+      listing_command("methods", "List the time integration methods and Butcher tables",
+                      "Example:\n  subimpact methods", method_listing),
+      command_with(
+          "keys", "List the keys of a case file: units, allowed values, defaults", print_keys,
+          key_options,
+          "Examples:\n  subimpact keys\n  subimpact keys yield\n  subimpact keys --schema > "
+          "subimpact.schema.json\n\n"
+          "A case file that begins with `#:schema ./subimpact.schema.json` is then completed and\n"
+          "checked by editors that use Taplo (in VS Code: the extension Even Better TOML)."),
+      listing_command("columns",
                       "List the columns of the CSV tables that a run writes: units, meanings",
-                      "Example:\n  subimpact columns", column_listing);
-  add_listing_command(
-      program, "completion", "Print the completion of commands and options for bash",
-      "Example, in ~/.bashrc, where no package has put it in place:\n  source <(subimpact "
-      "completion)",
-      [] { return std::string(embedded_file("../../apps/subimpact/completion.bash")); });
+                      "Example:\n  subimpact columns", column_listing),
+      listing_command(
+          "completion", "Print the completion of commands and options for bash",
+          "Example, in ~/.bashrc, where no package has put it in place:\n  source <(subimpact "
+          "completion)",
+          [] { return std::string(embedded_file("../../apps/subimpact/completion.bash")); })};
 }
 
 }  // namespace subimpact::app

@@ -56,7 +56,14 @@ int run(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit fails then, like writing to a full disk
   std::signal(SIGPIPE, SIG_IGN);  // results come before what is printed, and notes before a run
   try {
-    return checked_output(app::run_command_line(argc, argv));
+    std::vector<app::Command> commands = {app::new_command(),       app::run_command(),
+                                          app::compare_command(),   app::work_precision_command(),
+                                          app::stability_command(), app::explain_command(),
+                                          app::report_command()};
+    for (auto& list : {app::python_commands(), app::listing_commands()}) {
+      commands.insert(commands.end(), list.begin(), list.end());
+    }
+    return checked_output(app::run_command_line(argc, argv, commands));
   } catch (const Error& error) {
     const bool names_file = error.kind == ErrorKind::case_file || error.kind == ErrorKind::results;
     app::print_error("{}{}\n", names_file ? "" : "subimpact: ", error.what());

@@ -2,7 +2,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -38,17 +37,6 @@ try:
 except ModuleNotFoundError as error:
     refuse(error)
 )";
-
-// Commands that take their arguments, and print their help, themselves.
-struct PackageCommand {
-  const char *name, *module, *description;
-};
-constexpr PackageCommand package_commands[] = {
-    {"plot", "subimpact.plot", "Draw the figures of a run, a sweep or a study (SVG, PNG and PDF)"},
-    {"sensitivity", "subimpact.derivatives",
-     "Show how event times, forces and velocities depend on the numbers of a case"},
-    {"scatter", "subimpact.predictability",
-     "Show how far a strike can be predicted whose numbers scatter"}};
 
 // The directory above that of the program.
 fs::path own_prefix() {
@@ -115,32 +103,39 @@ int run_python(const std::string& module, const std::vector<std::string>& argume
   _exit(getppid() == parent ? become_python(words) : failed);
 }
 
-const char* module_of(const std::string& command) {
-  const auto* found = std::ranges::find(package_commands, command, &PackageCommand::name);
-  return found != std::end(package_commands) ? found->module : nullptr;
-}
-
-void add_python_commands(Program& program) {
-  for (const auto& [name, module, description] : package_commands) {
-    CLI::App& command = add_command(
-        program, name, description,
+std::vector<Command> python_commands() {
+  // Each takes its arguments, and prints its help, itself.
+  const auto of_package = [](const char* name, const char* module, const char* description) {
+    return Command{
+        name,
+        description,
+        {},
         fmt::format("Needs the Python package; subimpact {} --help has its options.", name),
-        [module = module](const CLI::App& app) { return run_python(module, app.remaining()); });
-    command.prefix_command();
-    command.set_help_flag();
-  }
-  add_command(program, "python",
-              "Run Python where `import subimpact` finds the package of this program",
-              "Its arguments are those of Python. The package is that of the build tree or of the "
-              "installation of this program, else the one "
-              "that Python has. SUBIMPACT_PYTHON_EXECUTABLE names another interpreter.\n"
-              "Examples:\n"
-              "  subimpact python\n"
-              "  subimpact python script.py\n"
-              "  subimpact python -c 'import subimpact; print(subimpact.__version__)'\n"
-              "Exit status: that of Python; 2 without Python.",
-              [](const CLI::App& command) { return become_python(command.remaining()); })
-      .prefix_command();
+        [=](const auto& rest) { return run_python(module, rest); },
+        true,
+        true};
+  };
+  const Command python = {
+      "python",
+      "Run Python where `import subimpact` finds the package of this program",
+      {},
+      "Its arguments are those of Python. The package is that of the build tree or of the "
+      "installation of this program, else the one "
+      "that Python has. SUBIMPACT_PYTHON_EXECUTABLE names another interpreter.\n"
+      "Examples:\n"
+      "  subimpact python\n"
+      "  subimpact python script.py\n"
+      "  subimpact python -c 'import subimpact; print(subimpact.__version__)'\n"
+      "Exit status: that of Python; 2 without Python.",
+      [](const auto& rest) { return become_python(rest); },
+      true};
+  return {of_package("plot", "subimpact.plot",
+                     "Draw the figures of a run, a sweep or a study (SVG, PNG and PDF)"),
+          of_package("sensitivity", "subimpact.derivatives",
+                     "Show how event times, forces and velocities depend on the numbers of a case"),
+          of_package("scatter", "subimpact.predictability",
+                     "Show how far a strike can be predicted whose numbers scatter"),
+          python};
 }
 
 }  // namespace subimpact::app

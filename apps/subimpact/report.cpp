@@ -54,15 +54,15 @@ int report(FinishedRunOptions& options) {
     return fs::exists(path / "runs.csv") && !fs::exists(path / "summary.json");
   };
   if (!options.measured.empty() && (several || is_sweep(first))) {
-    throw CLI::ValidationError("--measured", "is compared with one run; give its directory alone");
+    throw UsageError("--measured", "is compared with one run; give its directory alone");
   }
   if (several && std::ranges::any_of(options.runs, is_sweep)) {
-    throw CLI::ValidationError("DIR", "a sweep, whose page shows all of its runs, is given alone");
+    throw UsageError("DIR", "a sweep, whose page shows all of its runs, is given alone");
   }
   if (several && options.directory.empty()) {
-    throw CLI::ValidationError("DIR",
-                               "several runs are given; --out DIR must name the directory "
-                               "for the page that compares them");
+    throw UsageError("DIR",
+                     "several runs are given; --out DIR must name the directory "
+                     "for the page that compares them");
   }
   if (!fs::is_directory(first)) {
     fail<ResultsError>(
@@ -88,38 +88,38 @@ int report(FinishedRunOptions& options) {
   return done;
 }
 
-void add_options(CLI::App& command, FinishedRunOptions& options) {
-  command
-      .add_option("DIR", options.runs,
-                  "Output directory of `subimpact run`, or of subimpact-sweep; several of runs: "
-                  "they are compared")
-      ->required();
-  add_directory(command, options.directory,
-                "Directory for report.html, comparison.html or sweep.html; made if missing. "
-                "Default: DIR; needed with several");
-  command.add_option("--dygraphs", options.dygraphs,
-                     "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
-                     "Default: that of Debian's libjs-dygraphs");
-  command
-      .add_option("--measured", options.measured,
-                  "File of a measured force as an instrument or a spreadsheet writes it, to "
-                  "compare with the computed one. One that states what it holds needs no other "
-                  "option")
-      ->check(not_empty);
+std::vector<Option> options_of(FinishedRunOptions& options) {
+  Option runs = {"DIR", &options.runs,
+                 "Output directory of `subimpact run`, or of subimpact-sweep; several of runs: "
+                 "they are compared"};
+  runs.is_required = true;
+  runs.list = Option::List::all_that_follow;
+  std::vector<Option> list = {
+      runs,
+      of_directory(options.directory,
+                   "Directory for report.html, comparison.html or sweep.html; made if missing. "
+                   "Default: DIR; needed with several"),
+      {"--dygraphs", &options.dygraphs,
+       "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. Default: that of "
+       "Debian's libjs-dygraphs"},
+      {"--measured", &options.measured,
+       "File of a measured force as an instrument or a spreadsheet writes it, to compare with "
+       "the computed one. One that states what it holds needs no other option",
+       not_empty}};
   options.how_measured.resize(std::size(measured_options));
   for (std::size_t i = 0; i < std::size(measured_options); ++i) {
     const auto& [name, meaning] = measured_options[i];
-    command.add_option(name, options.how_measured[i], meaning)
-        ->check(not_empty)
-        ->needs("--measured");
+    list.push_back({name, &options.how_measured[i], meaning, not_empty});
+    list.back().needs = "--measured";
   }
+  return list;
 }
 
 }  // namespace
 
-void add_report_command(Program& program) {
-  add_command(
-      program, "report", "Write finished runs as one page of HTML", report, add_options,
+Command report_command() {
+  return command_with(
+      "report", "Write finished runs as one page of HTML", report, options_of,
       "report.html needs no other file and no network. In a browser it shows the beam moving, "
       "zoomable charts, force against indentation, a timeline with error bars and the table of "
       "sub-impacts, linked; printed, or without scripts, it is a still report, with the figures "

@@ -228,41 +228,44 @@ int run(RunOptions& options) {
   return result.outcome.completed() ? done : failed;
 }
 
-void add_options(CLI::App& command, RunOptions& options) {
+std::vector<Option> options_of(RunOptions& options) {
   options.input.may_repeat = true;
-  options.input.add_case(command);
-  options.input.add_method(command);
-  add_directory(command, options.directory,
-                "Directory for events.csv, transitions.csv, history.csv, shapes.csv, envelope.csv, "
-                "summary.json, report.json, manifest.json and, where asked for, sections.csv and "
-                "points.csv; made if missing. Default: the case file's name without its ending, "
-                "and -results, in the current directory");
-  options.input.add_within(command);
-  options.input.add_opening(command);
-  command
-      .add_option("--error-bars", options.error_bars,
-                  "By default all errors are estimated from runs on coarser meshes, which take up "
-                  "to one and a half times as long as the run itself; on a mesh that the case "
-                  "fixes, those of sub-impacts are of the integration in time. all: of that mesh "
-                  "too; off: no estimate")
-      ->check(CLI::IsMember({"all", "off"}));
-  command
-      .add_option("--body-errors", options.body_errors,
-                  "off: no estimate of how far the body itself may be from the model")
-      ->check(CLI::IsMember({"on", "off"}));
-  add_jobs(command, options.jobs);
-  command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
-  command.add_flag("--verbose", options.verbose,
-                   "Print mesh, method, the runs beside, conservation and work too");
-  command.add_flag("--all", options.all,
-                   "Print every sub-impact, also those that are not certain one by one");
+  Option error_bars = {
+      "--error-bars", &options.error_bars,
+      "By default all errors are estimated from runs on coarser meshes, which take up to "
+      "one and a half times as long as the run itself; on a mesh that the case fixes, those of "
+      "sub-impacts are of the integration in time. all: of that mesh too; off: no estimate"};
+  error_bars.choices = {"all", "off"};
+  return options.input.of_case_and_method() +
+         std::vector<Option>{
+             of_directory(
+                 options.directory,
+                 "Directory for events.csv, transitions.csv, history.csv, shapes.csv, "
+                 "envelope.csv, "
+                 "summary.json, report.json, manifest.json and, where asked for, sections.csv and "
+                 "points.csv; made if missing. Default: the case file's name without its ending, "
+                 "and -results, in the current directory"),
+             options.input.of_within(),
+             options.input.of_opening(),
+             error_bars,
+             {"--body-errors",
+              &options.body_errors,
+              "off: no estimate of how far the body itself may be from the model",
+              {},
+              {"on", "off"}},
+             of_jobs(options.jobs),
+             {"--quiet", &options.quiet, "Print nothing but warnings and errors"},
+             {"--verbose", &options.verbose,
+              "Print mesh, method, the runs beside, conservation and work too"},
+             {"--all", &options.all,
+              "Print every sub-impact, also those that are not certain one by one"}};
 }
 
 }  // namespace
 
-void add_run_command(Program& program) {
-  add_command(
-      program, "run", "Simulate a case", run, add_options,
+Command run_command() {
+  return command_with(
+      "run", "Simulate a case", run, options_of,
       "Examples:\n"
       "  subimpact run case.toml\n"
       "  subimpact run case.toml --out out/tight --set solver.rtol=1e-10\n"

@@ -36,24 +36,25 @@ int run_stability(StabilityCommand& command) {
   });
 }
 
-void add_options(CLI::App& command, StabilityCommand& options) {
-  options.input.add_case(command);
-  add_list(command, "--methods", options.methods,
-           "Only these methods, separated by commas; one without a table stands for all its "
-           "tables. Default: all");
-  add_directory(command, options.directory,
-                "Directory for outcomes.csv; made if missing. Default: the case file's name "
-                "without its ending, and -stability, in the current directory");
-  add_seconds(command, "--run-seconds", options.run_seconds, "Runs that take longer are left out");
-  add_jobs(command, options.jobs);
+std::vector<Option> options_of(StabilityCommand& options) {
+  return options.input.of_case() +
+         std::vector<Option>{
+             {"--methods", &options.methods,
+              "Only these methods, separated by commas; one without a table stands for all "
+              "its tables. Default: all"},
+             of_directory(options.directory,
+                          "Directory for outcomes.csv; made if missing. Default: the case file's "
+                          "name without its ending, and -stability, in the current directory"),
+             of_seconds("--run-seconds", options.run_seconds, "Runs that take longer are left out"),
+             of_jobs(options.jobs)};
 }
 
 }  // namespace
 
-void add_stability_command(Program& program) {
-  add_command(
-      program, "stability", "Find where each method fails, and how; as a table and CSV",
-      run_stability, add_options,
+Command stability_command() {
+  return command_with(
+      "stability", "Find where each method fails, and how; as a table and CSV", run_stability,
+      options_of,
       "Every method runs at fixed steps far below and beyond the stable ones, and at tolerances: "
       "right, wrong count, inaccurate, unstable, refused, failed. After Ctrl-C the runs that had "
       "ended remain.\n"

@@ -84,26 +84,28 @@ int run_work_precision(WorkPrecisionCommand& command) {
   });
 }
 
-void add_options(CLI::App& command, WorkPrecisionCommand& options) {
-  options.input.add_case(command);
-  add_list(command, "--methods", options.methods,
-           "Methods to sweep, separated by commas; a method's table after a colon, its "
-           "solver.events after a plus sign. Default: all that can run the case");
-  add_choices(command, "--sections", options.sections, "model.section",
-              "Section laws, separated by commas, each in a panel of its own. Default: the case's");
-  add_directory(command, options.directory,
-                "Directory for the CSV file; made if missing. Default: the case file's name "
-                "without its ending, and -work-precision, in the current directory");
-  add_seconds(command, "--point-seconds", options.point_seconds,
-              "A setting that would take longer is reported as not run");
+std::vector<Option> options_of(WorkPrecisionCommand& options) {
+  return options.input.of_case() +
+         std::vector<Option>{
+             {"--methods", &options.methods,
+              "Methods to sweep, separated by commas; a method's table after a colon, its "
+              "solver.events after a plus sign. Default: all that can run the case"},
+             of_choices("--sections", options.sections, "model.section",
+                        "Section laws, separated by commas, each in a panel of its own. Default: "
+                        "the case's"),
+             of_directory(options.directory,
+                          "Directory for the CSV file; made if missing. Default: the case file's "
+                          "name without its ending, and -work-precision, in the current directory"),
+             of_seconds("--point-seconds", options.point_seconds,
+                        "A setting that would take longer is reported as not run")};
 }
 
 }  // namespace
 
-void add_work_precision_command(Program& program) {
-  add_command(
-      program, "work-precision", "Compare cost and error of every method, and recommend settings",
-      run_work_precision, add_options,
+Command work_precision_command() {
+  return command_with(
+      "work-precision", "Compare cost and error of every method, and recommend settings",
+      run_work_precision, options_of,
       "Each method is swept from coarse to fine, rtol in decades, fixed steps in halves, against "
       "a reference computed by two methods at rtol 1e-12. Runs end at the horizon, up to which the "
       "error of the reference is below 1e-4 us. Runs are timed one at a time: leave the machine "
