@@ -62,21 +62,20 @@ const OscillatorStep& Exponential::table(int level) {
   return *entry;
 }
 
-double Exponential::displacement(const double* values) const {
-  return dot(oscillators_.displacements().data(), values, n_);
-}
-
 void Exponential::restart(double t, const State& y) {
   stand_at(t, y);
-  lambda1_ = displacement(y1_.data());
-  rate1_ = displacement(y1_.data() + n_);
+  read_end();
   bound_ = -1.0;
+}
+
+void Exponential::read_end() {
+  lambda1_ = dot(oscillators_.displacements().data(), y1_.data(), n_);
+  rate1_ = dot(oscillators_.displacements().data(), y1_.data() + n_, n_);
 }
 
 void Exponential::end_step(const OscillatorStep& taken) {
   if (!step_loads_.value.empty()) taken.add_loads(step_loads_, y1_);
-  lambda1_ = displacement(y1_.data());
-  rate1_ = displacement(y1_.data() + n_);
+  read_end();
   t1_ = t0_ + taken.length();
   force_length_ = taken.length();
 }
@@ -155,11 +154,7 @@ double Exponential::error_of_swings(const OscillatorStep& step) const {
     const auto sum = swing * swing + speed * speed;
     return OscillatorStep::is_fast(at(omega), h) ? sum : 0.0 * sum;
   };
-  const auto undamped = [=](auto at) {
-    const auto per = at(per_square), share = at(b);
-    return speed_squared(at, share * f0 - per * share * f2, share * f1 - per * share * f3);
-  };
-  const auto damped = [=](auto at, auto a0, auto a1) {
+  const auto squares = [=](auto at, auto a0, auto a1) {
     const auto per = at(per_square), share = at(b);
     const auto p3 = share * f3;
     const auto p2 = share * f2 - per * at(d) * p3;
@@ -169,10 +164,8 @@ double Exponential::error_of_swings(const OscillatorStep& step) const {
   const double* const a0 = step_loads_.value.data();
   const double* const a1 = step_loads_.rate.data();
   const double sum =
-      a0 != nullptr ? sum_of(n_, [=](auto at) { return damped(at, at(a0), at(a1)); })
-      : oscillators_.decay_rates().empty()
-          ? sum_of(n_, undamped)
-          : sum_of(n_, [=](auto at) { return damped(at, 0.0 * at(q), 0.0 * at(q)); });
+      a0 != nullptr ? sum_of(n_, [=](auto at) { return squares(at, at(a0), at(a1)); })
+                    : sum_of(n_, [=](auto at) { return squares(at, 0.0 * at(q), 0.0 * at(q)); });
   return step.error_per_swing() * std::sqrt(sum);
 }
 
@@ -184,7 +177,7 @@ bool Exponential::resolves_side(const Ends& ends, double h, double uncertainty) 
                           sign * (ends.lambda1 - critical), sign * ends.rate1, h);
   // A local maximum between two extrema does not show at the ends.
   if (path.reversed_at()) {
-    const double maximum = std::max(path(path.first_extremum()), path(path.second_extremum()));
+    const double maximum = std::max(path(path.extrema().first), path(path.extrema().second));
     if (maximum >= -uncertainty) return false;
   }
   if (uncertainty <= rounding * size_) return true;

@@ -30,8 +30,8 @@ class Exponential final : public Integrator {
     double lambda0, rate0, lambda1, rate1;
   };
   const OscillatorStep& table(int level);
-  double displacement(const double* values) const;  // sum c_i values_i
-  void end_step(const OscillatorStep& taken);       // y1_ without loads is its end
+  void read_end();                             // lambda and its rate at y1_
+  void end_step(const OscillatorStep& taken);  // y1_ without loads is its end
   void free_step();
   void forced_step();
   // Solves the collocation equations; false if Newton's method does not converge.

@@ -33,9 +33,8 @@ const std::vector<NystromTable>& nystrom_tables();
 /// The first for an empty name. Throws std::invalid_argument for an unknown one.
 const NystromTable& nystrom_table(const std::string& name);
 
-/// Explicit Runge-Kutta-Nystroem methods for q'' = a(q): as the acceleration does not depend on the
-/// velocity, stages carry positions only, which halves the vector work and, order for order, needs
-/// about half the evaluations of a Runge-Kutta method.
+/// Explicit Runge-Kutta-Nystroem methods for q'' = a(q): stages carry positions only, which halves
+/// the vector work and, order for order, the evaluations of a Runge-Kutta method.
 ///
 /// Error control as in `erk`: weighted root-mean-square norm of the estimate with the constant
 /// weights 1/(rtol * scale), a proportional-integral controller, rejected steps retaken. A state

@@ -74,29 +74,25 @@ struct EventValue {
   double rate = 0.0;
 };
 
-struct RootOptions {
-  double tolerance = 0.0;   ///< on time, s: two iterates closer than this end the search
-  int max_iterations = 60;  ///< bisection alone needs about 50
-};
-
 /// The time in (a, b] at which `function(t)` rises through zero: Newton's method from `guess`, kept
-/// inside a bracket that shrinks with every evaluation, and bisection where Newton would leave it
-/// or stalls. The caller guarantees a sign change: value <= 0 just after a, > 0 at b. `function` is
-/// evaluated on the trajectory, so that the root lies on the trajectory and not on an interpolant.
-/// Returns the last time at which `function` was evaluated.
+/// inside a bracket that shrinks with every evaluation, and bisection, which alone needs about 50
+/// evaluations, where Newton would leave it or stalls. The caller guarantees a sign change: value
+/// <= 0 just after a, > 0 at b. Two iterates closer than `tolerance` (s) end the search. Returns
+/// the last time at which `function` was evaluated.
 template <class Function>
-double find_rise(Function function, double a, double b, double guess, RootOptions options) {
-  assert(a <= b && options.tolerance >= 0.0 && options.max_iterations > 0);
+double find_rise(Function function, double a, double b, double guess, double tolerance,
+                 int most_evaluations = 60) {
+  assert(a <= b && tolerance >= 0.0 && most_evaluations > 0);
   double t = guess > a && guess < b ? guess : 0.5 * (a + b);
   double last_size = 2.0 * (b - a);
   for (int i = 1;; ++i) {
     const EventValue at = function(t);
-    if (at.value == 0.0 || i == options.max_iterations) return t;
+    if (at.value == 0.0 || i == most_evaluations) return t;
     (at.value < 0.0 ? a : b) = t;
     double next = t - at.value / at.rate;
     const bool usable = at.rate > 0.0 && next >= a && next <= b;
-    if (usable && std::abs(next - t) <= options.tolerance) return t;
-    if (b - a <= options.tolerance) return t;
+    if (usable && std::abs(next - t) <= tolerance) return t;
+    if (b - a <= tolerance) return t;
     if (!usable || std::abs(next - t) > 0.5 * last_size) next = 0.5 * (a + b);
     last_size = std::abs(next - t);
     t = next;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include <Eigen/Core>
@@ -8,6 +9,8 @@ namespace subimpact {
 
 // Decompositions of dense matrices. Eigen's templates for them take seconds to compile in each file
 // that uses them: they are instantiated here alone, for matrices of any size.
+
+inline Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// Eigenvalues in ascending order, and the vectors in the columns of a matrix.
 struct EigenPairs {

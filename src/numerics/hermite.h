@@ -51,9 +51,13 @@ class HermiteCubic {
     if (c1_ * last > 0.0 && s > 0.0 && s < 1.0 && c1_ * slope(s) < 0.0) return s;
     return std::nullopt;
   }
-  /// The first and the second of the two extrema if there is a reversed_at().
-  double first_extremum() const { return extrema().first; }
-  double second_extremum() const { return extrema().second; }
+  /// Where the two extrema are if there is a reversed_at(), in order.
+  std::pair<double, double> extrema() const {
+    const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
+    const double a = std::clamp((-c2_ - root) / (3.0 * c3_), 0.0, 1.0);
+    const double b = std::clamp((-c2_ + root) / (3.0 * c3_), 0.0, 1.0);
+    return {std::min(a, b), std::max(a, b)};
+  }
 
   /// Where the value rises through zero between `a` (not above) and `b` (above).
   double rise(double a, double b) const {
@@ -66,13 +70,6 @@ class HermiteCubic {
 
  private:
   static constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  std::pair<double, double> extrema() const {
-    const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
-    const double a = std::clamp((-c2_ - root) / (3.0 * c3_), 0.0, 1.0);
-    const double b = std::clamp((-c2_ + root) / (3.0 * c3_), 0.0, 1.0);
-    return {std::min(a, b), std::max(a, b)};
-  }
-
   double c0_, c1_, c2_, c3_;
 };
 
@@ -122,7 +119,7 @@ class HermiteSeptic {
         [&](double s) {
           return EventValue{sign * slope(s), sign * second(s)};
         },
-        0.0, 1.0, guess, {1e-15});
+        0.0, 1.0, guess, 1e-15);
   }
 
  private:

@@ -187,9 +187,8 @@ Coefficients recurrences(const BandedMatrix& factor, std::size_t b) {
 
 BandedSolver::BandedSolver(const BandedMatrix& matrix)
     : size_(matrix.size()),
-      n_blocks_((matrix.size() + block - 1) / block),
+      n_blocks_((matrix.size() + block_size - 1) / block_size),
       half_bandwidth_(matrix.half_bandwidth()) {
-  static_assert(block == block_size);
   if (half_bandwidth_ > 3) throw std::invalid_argument("banded solver: half bandwidth above 3");
   const std::optional<BandedMatrix> factor = matrix.cholesky_factor();
   if (!factor) throw std::invalid_argument("banded solver: matrix not positive definite");
@@ -207,11 +206,11 @@ BandedSolver::BandedSolver(const BandedMatrix& matrix)
 
 template <std::size_t width>
 void BandedSolver::solve_with(double* x) const {
-  const std::size_t n_whole = size_ / block;
-  const std::size_t rest = size_ % block;
-  double tail[block] = {};  // the last block, if it is not whole
-  std::copy_n(x + n_whole * block, rest, tail);
-  const auto place = [&](std::size_t b) { return b < n_whole ? x + b * block : tail; };
+  const std::size_t n_whole = size_ / block_size;
+  const std::size_t rest = size_ % block_size;
+  double tail[block_size] = {};  // the last block, if it is not whole
+  std::copy_n(x + n_whole * block_size, rest, tail);
+  const auto place = [&](std::size_t b) { return b < n_whole ? x + b * block_size : tail; };
   const double* coefficients = coefficients_.data();
   Lanes carried{};
   for (std::size_t b = 0; b < n_blocks_; ++b) {
@@ -223,7 +222,7 @@ void BandedSolver::solve_with(double* x) const {
     const Step<width, Direction::up> step(coefficients + up_[b]);
     store(step(place(b), carried), place(b));
   }
-  std::copy_n(tail, rest, x + n_whole * block);
+  std::copy_n(tail, rest, x + n_whole * block_size);
 }
 
 void BandedSolver::solve(std::span<double> x) const {

@@ -8,15 +8,8 @@
 
 namespace subimpact {
 
-/// Solves Mass x = b for a mass matrix factored once.
-class MassSolver {
- public:
-  virtual ~MassSolver() = default;
-  /// Overwrites the right-hand side with the solution.
-  virtual void solve(std::span<double> x) const = 0;
-};
-
-/// Cholesky factorisation of a banded matrix, arranged so that its recurrences run block by block.
+/// Solves Mass x = b with a Cholesky factorisation of a banded matrix, arranged so that its
+/// recurrences run block by block.
 ///
 /// With A = L L^T, L lower-banded, cut into blocks of 8 unknowns, forward substitution reads y_b =
 /// D_b^-1 b_b - P_b (last unknowns of y_{b-1}) with D_b^-1 and P_b = D_b^-1 C_b formed once, and
@@ -25,13 +18,13 @@ class MassSolver {
 /// A tridiagonal matrix needs no full D_b^-1: three multiply-adds with shifted blocks are enough.
 /// A diagonal matrix needs none of this. For half bandwidths up to 3. Throws std::invalid_argument
 /// if the matrix is not positive definite.
-class BandedSolver final : public MassSolver {
+class BandedSolver {
  public:
   explicit BandedSolver(const BandedMatrix& matrix);
-  void solve(std::span<double> x) const override;
+  /// Overwrites the right-hand side with the solution.
+  void solve(std::span<double> x) const;
 
  private:
-  static constexpr std::size_t block = 8;
   template <std::size_t width>
   void solve_with(double* x) const;
 

@@ -8,43 +8,34 @@
 namespace subimpact {
 namespace {
 
-// N terms, in copies that no store to an output can change.
-template <std::size_t N>
-struct Terms {
-  std::array<double, N> weights;
-  std::array<const double*, N> vectors;
-  Terms(const double* w, const double* const* v) {
-    std::copy_n(w, N, weights.begin());
-    std::copy_n(v, N, vectors.begin());
-  }
-};
-
 template <std::size_t N>
 void write_terms(const double* weights, const double* const* vectors, double* out, std::size_t n) {
-  const Terms<N> terms(weights, vectors);
+  std::array<double, N> w;  // copies that no store to the output can change
+  std::array<const double*, N> x;
+  std::copy_n(weights, N, w.begin());
+  std::copy_n(vectors, N, x.begin());
 #pragma GCC ivdep
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0.0;
-    if constexpr (N > 0) sum = terms.weights[0] * terms.vectors[0][i];
-    for (std::size_t k = 1; k < N; ++k) sum += terms.weights[k] * terms.vectors[k][i];
+    if constexpr (N > 0) sum = w[0] * x[0][i];
+    for (std::size_t k = 1; k < N; ++k) sum += w[k] * x[k][i];
     out[i] = sum;
   }
 }
 
 template <std::size_t N>
 double square_terms(const double* weights, const double* const* vectors, std::size_t n) {
-  const Terms<N> terms(weights, vectors);
   Lanes running{};
   std::size_t i = 0;
   for (; i + n_lanes <= n; i += n_lanes) {
     Lanes here{};
-    for (std::size_t k = 0; k < N; ++k) here += terms.weights[k] * lanes_at(terms.vectors[k] + i);
+    for (std::size_t k = 0; k < N; ++k) here += weights[k] * lanes_at(vectors[k] + i);
     running += here * here;
   }
   double total = sum(running);
   for (; i < n; ++i) {
     double here = 0.0;
-    for (std::size_t k = 0; k < N; ++k) here += terms.weights[k] * terms.vectors[k][i];
+    for (std::size_t k = 0; k < N; ++k) here += weights[k] * vectors[k][i];
     total += here * here;
   }
   return total;

@@ -1,10 +1,5 @@
 #include "simulate/near_miss_search.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <tuple>
-
 #include "numerics/hermite.h"
 
 namespace subimpact {
@@ -31,7 +26,7 @@ struct GapStep {
     const HermiteCubic upside_down(-g0, -rate0, -g1, -rate1, t1 - t0);
     if (rate0 < 0.0 && rate1 >= 0.0) return upside_down.peak();
     if (!upside_down.reversed_at()) return std::nullopt;
-    return rate0 < 0.0 ? upside_down.first_extremum() : upside_down.second_extremum();
+    return rate0 < 0.0 ? upside_down.extrema().first : upside_down.extrema().second;
   }
 };
 
@@ -41,15 +36,12 @@ std::optional<IndentationStep> part_around(const ObservedStep& step, const Struc
                                            const std::optional<std::pair<double, double>>& times,
                                            State& state) {
   if (!times) return std::nullopt;
-  IndentationStep part{};
-  std::tie(part.t0, part.t1) = *times;
-  step.state_at(part.t0, state);
-  part.lambda0 = beam.indentation(state);
-  part.rate0 = beam.indentation_rate(state);
-  step.state_at(part.t1, state);
-  part.lambda1 = beam.indentation(state);
-  part.rate1 = beam.indentation_rate(state);
-  return part;
+  const auto [t0, t1] = *times;
+  step.state_at(t0, state);
+  const double lambda0 = beam.indentation(state), rate0 = beam.indentation_rate(state);
+  step.state_at(t1, state);
+  return IndentationStep{
+      t0, t1, lambda0, rate0, beam.indentation(state), beam.indentation_rate(state)};
 }
 
 void NearMissSearch::look_into(const ObservedStep& step, const StruckBeam& beam,
@@ -64,7 +56,7 @@ void NearMissSearch::look_into(const ObservedStep& step, const StruckBeam& beam,
     if (!s) return;
     // The step has no event here, so the margin is at least the rounding.
     const double margin = std::max(part.value(*s), beam.displacement_rounding(step.y1()));
-    if (n_ == most_kept && !(margin < kept_[n_ - 1].margin)) return;
+    if (kept_.size() == most_kept && !(margin < kept_.back().margin)) return;
     const double depth = std::min(part.g0, part.g1) - part.value(*s);
     const bool certain = uncertain_share * depth <= margin_accuracy * margin;
     if (certain || !refine || n == most_refinements) return keep({part.time(*s), margin, kind_});
@@ -81,16 +73,15 @@ void NearMissSearch::look_into(const ObservedStep& step, const StruckBeam& beam,
 }
 
 void NearMissSearch::keep(const NearMiss& near_miss) {
-  if (n_ < most_kept) ++n_;
-  std::size_t i = n_ - 1;
-  for (; i > 0 && near_miss.margin < kept_[i - 1].margin; --i) kept_[i] = kept_[i - 1];
-  kept_[i] = near_miss;
+  const auto farther = std::ranges::upper_bound(kept_, near_miss.margin, {}, &NearMiss::margin);
+  kept_.insert(farther, near_miss);
+  if (kept_.size() > most_kept) kept_.pop_back();
 }
 
 std::optional<ClosestApproach> NearMissSearch::closest(double end, const State& y,
                                                        const StruckBeam& beam) const {
   std::optional<ClosestApproach> found;
-  if (n_ > 0) found = {kept_[0].time, kept_[0].margin, {}};
+  if (!kept_.empty()) found = {kept_[0].time, kept_[0].margin, {}};
   const double gap = beam.contact().residual_indentation() - beam.indentation(y);
   const bool is_closing = beam.indentation_rate(y) > 0.0;
   if (is_closing && !(found && found->gap <= gap)) found = {end, gap, {}};
@@ -100,13 +91,11 @@ std::optional<ClosestApproach> NearMissSearch::closest(double end, const State& 
 void NearMissSearch::finish(double residual, std::vector<NearMiss>& near_misses) {
   const double largest = farthest_ - sense_ * residual;
   const auto before = static_cast<std::ptrdiff_t>(near_misses.size());
-  for (std::size_t i = 0; i < n_; ++i) {
-    if (!(kept_[i].margin < near_share * largest)) break;
-    near_misses.push_back(kept_[i]);
+  for (const NearMiss& kept : kept_) {
+    if (kept.margin < near_share * largest) near_misses.push_back(kept);
   }
-  std::sort(near_misses.begin() + before, near_misses.end(),
-            [](const NearMiss& a, const NearMiss& b) { return a.time < b.time; });
-  n_ = 0;
+  std::ranges::sort(near_misses.begin() + before, near_misses.end(), {}, &NearMiss::time);
+  kept_.clear();
 }
 
 namespace {
@@ -123,7 +112,7 @@ void LargestGap::follow(const ObservedStep& step, const StruckBeam& beam, double
   const double residual = beam.contact().residual_indentation();
   largest = std::max(largest, residual - ends.lambda1);
   if (step.ends().event_free) {
-    const auto part = part_around(step, beam, step.around_smallest(), state_);
+    const auto part = part_around(step, beam, step.integrator().around_smallest(), state_);
     if (!part) return;
     largest = std::max({largest, residual - part->lambda0, residual - part->lambda1});
     look_into(step, beam, *part, largest);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -29,7 +28,7 @@ std::optional<IndentationStep> part_around(const ObservedStep& step, const Struc
                                            State& state);
 
 /// Finds the near misses of one contact or separation after the other, step by step
-/// (docs/theory.md, "Events"). Of each the nearest few are kept, in an array of fixed size.
+/// (docs/theory.md, "Events"). Of each the nearest few are kept.
 class NearMissSearch {
  public:
   /// A contact (`opening`) or a separation (`closing`) begins.
@@ -37,7 +36,7 @@ class NearMissSearch {
     kind_ = kind;
     sense_ = kind == NearMissKind::opening ? 1.0 : -1.0;
     farthest_ = -std::numeric_limits<double>::infinity();
-    n_ = 0;
+    kept_.clear();
   }
 
   /// A step of it. `refine`: whether states within the step follow the trajectory better than the
@@ -46,7 +45,8 @@ class NearMissSearch {
     const IndentationStep& ends = step.indentation();
     farthest_ = std::max(farthest_, sense_ * ends.lambda1);
     if (step.ends().event_free) {
-      if (const auto part = part_around(step, beam, step.around_largest(), state_)) {
+      const auto times = step.integrator().around_largest();
+      if (const auto part = part_around(step, beam, times, state_)) {
         look_into(step, beam, *part, true);
       }
     } else if (may_turn(ends, sense_)) {
@@ -71,9 +71,8 @@ class NearMissSearch {
   NearMissKind kind_ = NearMissKind::closing;
   double sense_ = -1.0;                                         // of the indentation when g grows
   double farthest_ = -std::numeric_limits<double>::infinity();  // sense * lambda, m
-  std::array<NearMiss, most_kept> kept_;  // of the present contact or separation
-  std::size_t n_ = 0;                     // of these
-  State state_;                           // within a step
+  std::vector<NearMiss> kept_;  // of the present contact or separation, the nearest first
+  State state_;                 // within a step
 };
 
 /// Finds the largest gap (m) between striker and beam in a separation, step by step: at the ends of

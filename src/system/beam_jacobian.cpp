@@ -76,17 +76,15 @@ void BeamJacobian::mass_entries(std::span<double> values) const {
   values[pattern_.n_entries() - 1] = std::isinf(striker_mass_) ? 1.0 : striker_mass_;
 }
 
-void BeamJacobian::stiffness_entries(std::span<const double> tangents, double contact_slope,
-                                     std::span<double> values, double tension,
-                                     const BandedMatrix* form) {
+void BeamJacobian::stiffness_entries(std::span<const double> tangents, std::span<double> values,
+                                     double tension, const BandedMatrix* form) {
   bending_.set_zero();
   mesh_.add_stiffness(tangents, bending_);
   if (form != nullptr) bending_.add(tension, *form);
   copy_band(bending_, values);
-  add_contact(contact_slope, values);
 }
 
-void BeamJacobian::add_contact(double slope, std::span<double> values, std::size_t contact) const {
+void BeamJacobian::add_contact(std::size_t contact, double slope, std::span<double> values) const {
   for (const ContactEntry& entry : contact_entries_[contact]) {
     values[entry.position] += slope * entry.coefficient;
   }

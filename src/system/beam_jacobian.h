@@ -10,15 +10,11 @@
 
 namespace subimpact {
 
-/// Mass and tangent stiffness of a struck beam as sparse matrices of one pattern, the striker being
-/// the last unknown:
-///
-///     Mass = [beam's mass, 0; 0, m],   K = [B^T W diag(tangent) B, 0; 0, 0] + dF/dlambda g g^T,
-///
-/// of a stop with 1 in place of m and without the striker's row of g g^T, so that it stays at rest;
-/// with g = [-S; 1] the gradient of the indentation. The pattern is the beam's band, a row and a
-/// column that couple the striker to the unknowns under it, and the striker's diagonal entry.
-/// Supports that lift add dF_j/dd_j a_j a_j^T within the band.
+/// Mass and tangent stiffness of a struck beam as sparse matrices of one pattern: the beam's band,
+/// the striker's diagonal entry, and a row and a column that couple it to the unknowns under it by
+/// dF/dlambda g g^T, g = [-S; 1] the gradient of the indentation. A stop has 1 in place of the mass
+/// and no row of g g^T, so that it stays at rest. Supports that lift add dF_j/dd_j a_j a_j^T within
+/// the band.
 class BeamJacobian {
  public:
   BeamJacobian(const BeamMesh& mesh, double striker_mass,
@@ -26,13 +22,12 @@ class BeamJacobian {
 
   const SparsityPattern& pattern() const { return pattern_; }
   void mass_entries(std::span<double> values) const;
-  /// `tangents` = dM/dkappa (N m2) of the sections; `contact_slope` = dF/dlambda (N/m); `tension`
-  /// (N) times `form` (G), if any, joins the beam's stiffness.
-  void stiffness_entries(std::span<const double> tangents, double contact_slope,
-                         std::span<double> values, double tension = 0.0,
-                         const BandedMatrix* form = nullptr);
-  /// Adds slope g g^T, or that of a support (from 1).
-  void add_contact(double slope, std::span<double> values, std::size_t contact = 0) const;
+  /// Without contacts: `tangents` = dM/dkappa (N m2) of the sections; `tension` (N) times `form`
+  /// (G), if any, joins the beam's stiffness.
+  void stiffness_entries(std::span<const double> tangents, std::span<double> values,
+                         double tension = 0.0, const BandedMatrix* form = nullptr);
+  /// Adds slope (N/m) g g^T, or that of a support (from 1).
+  void add_contact(std::size_t contact, double slope, std::span<double> values) const;
 
  private:
   void copy_band(const BandedMatrix& band, std::span<double> values) const;

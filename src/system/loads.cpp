@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "numerics/lanes.h"
 
@@ -55,10 +54,6 @@ void Loads::begin_piece(double t) {
       rate_[i] += point.rate * point.functional[i];
     }
   }
-}
-
-bool Loads::will_change() const {
-  return varies_ || next_corner_ < std::numeric_limits<double>::infinity();
 }
 
 void Loads::add_to(std::span<double> forces, double t) const {

@@ -11,14 +11,9 @@
 
 namespace subimpact {
 
-/// The loads on a beam that do not depend on its motion, as generalised forces of a mesh (N):
-///
-///     f(t) = (g + p/(rho A)) m + sum_j S_j F_j(t),
-///
-/// with the functional m of the beam's momentum, so that gravity g and the uniform load p do the
-/// work that their densities do, and the displacements S_j of the points that the forces F_j act
-/// on. Between two corners of the tables f is linear in t; it is continued linearly beyond the
-/// piece in force, and begin_piece() goes on to the next one.
+/// The loads f on a beam that do not depend on its motion, as generalised forces of a mesh, N
+/// (docs/theory/beam.md, "Scenes"). Between two corners of the tables f is linear in t; it is
+/// continued linearly beyond the piece in force, and begin_piece() goes on to the next one.
 class Loads {
  public:
   Loads() = default;
@@ -29,7 +24,9 @@ class Loads {
   /// Whether f changes within the piece in force.
   bool varies() const { return varies_; }
   /// Whether f changes after the piece in force.
-  bool will_change() const;
+  bool will_change() const {
+    return varies_ || next_corner_ < std::numeric_limits<double>::infinity();
+  }
   /// g, m/s2.
   double gravity() const { return gravity_; }
   /// Chooses the piece that holds from t on.
@@ -74,15 +71,10 @@ class Loads {
   double impulse_before_ = 0.0;  // the piece
 };
 
-/// The tension of a beam whose ends are held along it, one number for all sections: it resists the
-/// elongation e of the axis, elastically up to Y A and perfectly plastically there,
-///
-///     e = 1/2 integral of w'^2 dx = q^T G q/2,   N = E A (e - e_p)/l,   |N| <= Y A,
-///
-/// with the plastic elongation e_p, which commit() alone advances. It adds the forces -N G q, the
-/// elastic energy N^2 l/(2 E A) and the plastic work Y A |de_p|; between two calls of commit() N is
-/// a function of e, so that forces and energies belong together. Yield of the sections in bending
-/// is not affected. Source: S. Woinowsky-Krieger, J. Appl. Mech. 17 (1950) 35, while elastic.
+/// The tension N of a beam whose ends are held along it (docs/theory/beam.md, "Ends held along the
+/// beam"): it resists the elongation q^T G q/2 of the axis, elastically up to Y A and perfectly
+/// plastically there. commit() alone advances the plastic elongation e_p; between two calls N is a
+/// function of q, so that forces and energies belong together.
 class Tension {
  public:
   /// `form`: G, 1/m. `limit`: Y A, N; infinite where the beam does not yield.

@@ -1,7 +1,5 @@
 #include "system/modal_beam.h"
 
-#include <cmath>
-
 #include "model/mesh/modal_mesh.h"
 
 namespace subimpact {
@@ -34,10 +32,6 @@ ForcedOscillators::Loads ModalBeam::loads_from(double t0) {
     accelerations_[i] = loads.value()[i] / mass + (t0 - loads.start()) * rates_[i];
   }
   return {accelerations_, rates_};
-}
-
-ForcedOscillators::Force ModalBeam::force(double lambda) const {
-  return {beam_.contact().force(lambda), beam_.contact().slope(lambda)};
 }
 
 }  // namespace subimpact

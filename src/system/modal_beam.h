@@ -18,7 +18,9 @@ class ModalBeam final : public ForcedOscillators {
   std::span<const double> decay_rates() const override { return decay_rates_; }
   std::span<const double> loads() const override { return loads_; }
   std::span<const double> displacements() const override { return displacements_; }
-  Force force(double lambda) const override;
+  Force force(double lambda) const override {
+    return {beam_.contact().force(lambda), beam_.contact().slope(lambda)};
+  }
   bool has_loads() const override { return !beam_.loads().is_empty(); }
   Loads loads_from(double t0) override;
   bool is_free() const override { return !beam_.contact().is_closed(); }

@@ -1,6 +1,5 @@
 #include "system/struck_beam.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -38,7 +37,7 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
     depends_on_velocity_ = depends_on_velocity_ || support.contact.is_damped();
     std::vector<double> response(n_, 0.0);
     support.approach.add_to(response, 1.0);
-    mass_solver_->solve(response);
+    mass_solver_.solve(response);
     squares += support.copies * support.stiffness() * support.approach(response);
   }
   highest_frequency_ = std::sqrt(squares);
@@ -49,7 +48,7 @@ void StruckBeam::settle_on_supports(const State& y) {
   std::vector<double> under_loads(n_ + 1), struck(n_, 0.0);
   acceleration_at(y, under_loads);
   mesh_->struck_point().add_to(struck, 1.0);
-  mass_solver_->solve(struck);
+  mass_solver_.solve(struck);
   for (LiftingSupport& support : supports_) {
     const double depth = support.indentation(beam_positions(y));
     const double of_loads = support.approach({under_loads.data(), n_});
@@ -156,7 +155,7 @@ void StruckBeam::respond(std::span<const double> unknowns, std::span<const doubl
   mesh_->struck_point().add_to(forces, contact);
   if (!supports_.empty()) add_support_forces(unknowns, velocities, forces);
   if (!loads_.is_empty()) loads_.add_to(forces, time_);
-  mass_solver_->solve(forces);
+  mass_solver_.solve(forces);
   for (std::size_t i = 0; i < velocities.size(); ++i) forces[i] -= damping_.mass * velocities[i];
 }
 
@@ -227,15 +226,12 @@ void StruckBeam::stiffness_entries(std::span<const double> y, std::span<double> 
                       ? sections_.smooth_tangent(i, curvatures_[i])
                       : sections_.tangent(i, curvatures_[i]);
   }
-  const double lambda = y[n_] - mesh_->struck_point()(unknowns);
-  const double slope =
-      contact_.is_damped() ? contact_.slope(lambda, indentation_rate(y)) : contact_.slope(lambda);
   // What a change of the tension adds is of rank one, not banded, and left out.
   const double tension = tension_ ? tension_->at(unknowns) : 0.0;
-  jacobian().stiffness_entries(moments_, slope, values, tension,
-                               tension_ ? &tension_->form() : nullptr);
-  for (std::size_t i = 1; i < n_contacts(); ++i) {
-    jacobian().add_contact(contact(i).slope(indentation(y, i), indentation_rate(y, i)), values, i);
+  jacobian().stiffness_entries(moments_, values, tension, tension_ ? &tension_->form() : nullptr);
+  for (std::size_t i = 0; i < n_contacts(); ++i) {
+    const double rate = depends_on_velocity_ ? indentation_rate(y, i) : 0.0;
+    jacobian().add_contact(i, contact(i).slope(indentation(y, i), rate), values);
   }
 }
 
@@ -243,25 +239,17 @@ void StruckBeam::damping_entries(std::span<const double> y, std::span<double> va
   std::fill(values.begin(), values.end(), 0.0);
   if (damping_.stiffness > 0.0) {
     std::fill(moments_.begin(), moments_.end(), sections_.stiffness());
-    jacobian().stiffness_entries(moments_, 0.0, values);
+    jacobian().stiffness_entries(moments_, values);
     for (double& value : values) value *= damping_.stiffness;
   }
   for (std::size_t i = 0; i < n_contacts(); ++i) {
-    jacobian().add_contact(contact(i).rate_slope(indentation(y, i)), values, i);
+    jacobian().add_contact(i, contact(i).rate_slope(indentation(y, i)), values);
   }
   if (damping_.mass == 0.0) return;
   std::vector<double> mass(values.size());
   jacobian().mass_entries(mass);
   mass.back() = 0.0;  // the striker's
   for (std::size_t k = 0; k < values.size(); ++k) values[k] += damping_.mass * mass[k];
-}
-
-double StruckBeam::indentation(std::span<const double> y) const {
-  return y[n_] - mesh_->struck_point()(beam_positions(y));
-}
-
-double StruckBeam::indentation_rate(std::span<const double> y) const {
-  return y.back() - mesh_->struck_point()(beam_velocities(y));
 }
 
 double StruckBeam::displacement_rounding(std::span<const double> y, std::size_t contact) const {

@@ -26,7 +26,7 @@ struct StruckBeamParts {
   double striker_mass;      ///< kg; infinite: a stop
   double striker_velocity;  ///< v0, m/s, at the start
   double outer_stiffness;   ///< E h/2 of the outermost fibre, N/m, for sections that never yield
-  std::unique_ptr<MassSolver> mass_solver;
+  BandedSolver mass_solver;
   double contact_damping = 0.0;  ///< chi, s/m
   BeamDamping damping = {};      ///< its ratio for natural modes only
   Loads loads = {};
@@ -71,13 +71,10 @@ struct EndState {
 ///     m w_m'' = -F + m g,
 ///     F = F(lambda, history),   kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m; sign convention of kappa), K_s the stiffness of shear and springs, if any, the
-/// tension N of a beam that is held along it (Tension), the forces F_j of supports that lift
-/// (LiftingSupport; not in modes), and the loads f (Loads). In place of a
-/// striker of infinite mass there is a stop: w_m'' = 0. With damping the forces depend on
-/// velocities too (docs/theory.md, "Beam"). Other classes treat changes of branch within a step:
-/// ContactState and find_crossing for the contact, SectionCorrector for the sections. Accounts
-/// computes energies and momenta.
+/// with M (N m; sign convention of kappa), K_s the stiffness of shear and springs, the tension N
+/// (Tension), the forces F_j of supports that lift (LiftingSupport; not in modes), and the loads f
+/// (Loads). A striker of infinite mass is a stop: w_m'' = 0. With damping the forces depend on
+/// velocities too (docs/theory/beam.md).
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
@@ -98,17 +95,13 @@ class StruckBeam final : public MechanicalSystem {
 
   const BeamMesh& mesh() const { return *mesh_; }
   const SectionField& sections() const { return sections_; }
-  /// Sections in which any fibre has flowed.
-  std::size_t n_yielded_sections() const { return sections_.n_yielded(); }
-  const ContactState& contact() const { return contact_; }
-  ContactState& contact() { return contact_; }
   std::span<const LiftingSupport> supports() const { return supports_; }
   /// The contacts of the beam: that of the striker (0) and those of its supports that lift.
   std::size_t n_contacts() const { return 1 + supports_.size(); }
-  const ContactState& contact(std::size_t i) const {
+  const ContactState& contact(std::size_t i = 0) const {
     return i == 0 ? contact_ : supports_[i - 1].contact;
   }
-  ContactState& contact(std::size_t i) { return i == 0 ? contact_ : supports_[i - 1].contact; }
+  ContactState& contact(std::size_t i = 0) { return i == 0 ? contact_ : supports_[i - 1].contact; }
   /// F_j of each copy of support j (from 0) at y, N.
   double support_force(std::size_t j, std::span<const double> y) const {
     return supports_[j].contact.force(indentation(y, j + 1), indentation_rate(y, j + 1));
@@ -121,7 +114,7 @@ class StruckBeam final : public MechanicalSystem {
   void add_support_impulses(std::span<const double> impulses, double sign = 1.0) {
     for (std::size_t i = 0; i < supports_.size(); ++i) supports_[i].impulse += sign * impulses[i];
   }
-  const MassSolver& mass_solver() const { return *mass_solver_; }
+  const BandedSolver& mass_solver() const { return mass_solver_; }
   double striker_mass() const { return striker_mass_; }  ///< kg; infinite: a stop
   bool has_stop() const { return std::isinf(striker_mass_); }
   const Loads& loads() const { return loads_; }
@@ -173,13 +166,14 @@ class StruckBeam final : public MechanicalSystem {
   std::span<const double> beam_velocities(std::span<const double> y) const {
     return y.subspan(n_ + 1, n_);
   }
-  double indentation(std::span<const double> y) const;       ///< lambda, m
-  double indentation_rate(std::span<const double> y) const;  ///< m/s
-  double indentation(std::span<const double> y, std::size_t contact) const {
-    return contact == 0 ? indentation(y) : supports_[contact - 1].indentation(beam_positions(y));
+  /// lambda, m, and its rate, m/s.
+  double indentation(std::span<const double> y, std::size_t contact = 0) const {
+    return contact == 0 ? y[n_] - mesh_->struck_point()(beam_positions(y))
+                        : supports_[contact - 1].indentation(beam_positions(y));
   }
-  double indentation_rate(std::span<const double> y, std::size_t contact) const {
-    return contact == 0 ? indentation_rate(y) : supports_[contact - 1].approach(beam_velocities(y));
+  double indentation_rate(std::span<const double> y, std::size_t contact = 0) const {
+    return contact == 0 ? y.back() - mesh_->struck_point()(beam_velocities(y))
+                        : supports_[contact - 1].approach(beam_velocities(y));
   }
   double contact_force(std::span<const double> y) const {
     return contact_.is_damped() ? contact_.force(indentation(y), indentation_rate(y))
@@ -253,7 +247,7 @@ class StruckBeam final : public MechanicalSystem {
   SectionField sections_;
   ContactState contact_;
   std::vector<LiftingSupport> supports_;
-  std::unique_ptr<MassSolver> mass_solver_;
+  BandedSolver mass_solver_;
   std::size_t n_;
   double striker_mass_;
   double striker_velocity_;

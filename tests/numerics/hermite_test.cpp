@@ -92,10 +92,10 @@ TEST(HermiteCubic, ExtremaAreThoseOfADenseScan) {
     }
     if (const auto reversed = path.reversed_at()) {
       EXPECT_LT(path.slope(0.0) * path.slope(*reversed), 0.0);
-      EXPECT_NEAR(path.slope(path.first_extremum()), 0.0, 1e-12);
-      EXPECT_NEAR(path.slope(path.second_extremum()), 0.0, 1e-12);
-      EXPECT_LT(path.first_extremum(), *reversed);
-      EXPECT_GT(path.second_extremum(), *reversed);
+      EXPECT_NEAR(path.slope(path.extrema().first), 0.0, 1e-12);
+      EXPECT_NEAR(path.slope(path.extrema().second), 0.0, 1e-12);
+      EXPECT_LT(path.extrema().first, *reversed);
+      EXPECT_GT(path.extrema().second, *reversed);
       ++n_reversed;
     }
   }

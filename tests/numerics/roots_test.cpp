@@ -93,7 +93,7 @@ struct Search {
 };
 
 Search search(const std::function<EventValue(double)>& guard, double a, double b, double guess,
-              RootOptions options) {
+              double tolerance, int most_evaluations = 60) {
   Search result;
   result.found = find_rise(
       [&](double t) {
@@ -103,7 +103,7 @@ Search search(const std::function<EventValue(double)>& guard, double a, double b
         result.highest = std::max(result.highest, t);
         return guard(t);
       },
-      a, b, guess, options);
+      a, b, guess, tolerance, most_evaluations);
   return result;
 }
 
@@ -143,12 +143,11 @@ TEST(FindRise, FindsTheRootOfNastyFunctionsWithinItsBudget) {
   for (const NastyCase& nasty : nasty_cases) {
     for (const double root : {1e-6, 0.1234567, 0.5, 0.87654321, 1.0 - 1e-6}) {
       for (const double guess : {-3.0, 0.0, 0.01, 0.5, 0.999, 1.0, 7.0}) {
-        const RootOptions options{.tolerance = 1e-12};
         const Search result =
-            search([&](double t) { return nasty.guard(t, root); }, 0.0, 1.0, guess, options);
+            search([&](double t) { return nasty.guard(t, root); }, 0.0, 1.0, guess, 1e-12);
         SCOPED_TRACE(testing::Message() << nasty.name << ", root " << root << ", guess " << guess);
         EXPECT_NEAR(result.found, root, nasty.allowed);
-        EXPECT_LE(result.evaluations, options.max_iterations);
+        EXPECT_LE(result.evaluations, 60);
         EXPECT_GE(result.lowest, 0.0);
         EXPECT_LE(result.highest, 1.0);
       }
@@ -158,18 +157,16 @@ TEST(FindRise, FindsTheRootOfNastyFunctionsWithinItsBudget) {
 
 TEST(FindRise, ReturnsTheTimeAtWhichTheGuardWasEvaluatedLast) {
   for (const NastyCase& nasty : nasty_cases) {
-    const RootOptions options{.tolerance = 1e-9};
     const Search result =
-        search([&](double t) { return nasty.guard(t, 0.3); }, 0.0, 1.0, 0.4, options);
+        search([&](double t) { return nasty.guard(t, 0.3); }, 0.0, 1.0, 0.4, 1e-9);
     EXPECT_EQ(result.found, result.last_evaluated) << nasty.name;
   }
 }
 
 TEST(FindRise, ConvergesQuadraticallyOnASmoothFunction) {
-  const RootOptions options{.tolerance = 4.0 * rounding};
   const double root = std::log(2.0);
   const Search result = search([](double t) { return value(std::exp(t) - 2.0, std::exp(t)); }, 0.0,
-                               1.0, 0.6, options);
+                               1.0, 0.6, 4.0 * rounding);
   EXPECT_NEAR(result.found, root, 4.0 * rounding);
   EXPECT_LE(result.evaluations, 6);
 }
@@ -177,22 +174,21 @@ TEST(FindRise, ConvergesQuadraticallyOnASmoothFunction) {
 TEST(FindRise, WorksInMicrosecondsAsInYears) {
   for (const double unit : {1e-9, 1e-3, 1.0, 1e7}) {
     const double start = 3.0 * unit;
-    const RootOptions options{.tolerance = 8.0 * rounding * 4.0 * unit};
+    const double tolerance = 8.0 * rounding * 4.0 * unit;
     const Search result = search(
         [&](double t) {
           const double s = t / unit - 3.4;
           return value(s + s * s * s, (1.0 + 3.0 * s * s) / unit);
         },
-        start, 4.0 * unit, 3.9 * unit, options);
-    EXPECT_NEAR(result.found, 3.4 * unit, 4.0 * options.tolerance);
+        start, 4.0 * unit, 3.9 * unit, tolerance);
+    EXPECT_NEAR(result.found, 3.4 * unit, 4.0 * tolerance);
     EXPECT_LE(result.evaluations, 12);
   }
 }
 
 TEST(FindRise, StopsAtItsBudgetWhateverTheFunction) {
-  const RootOptions options{.max_iterations = 7};
   const Search result =
-      search([](double t) { return value(t < 0.123 ? -1.0 : 1.0, 0.0); }, 0.0, 1.0, 0.5, options);
+      search([](double t) { return value(t < 0.123 ? -1.0 : 1.0, 0.0); }, 0.0, 1.0, 0.5, 0.0, 7);
   EXPECT_EQ(result.evaluations, 7);
   EXPECT_NEAR(result.found, 0.123, std::ldexp(1.0, -6));
 }

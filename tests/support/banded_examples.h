@@ -4,12 +4,11 @@
 #include <cmath>
 #include <span>
 
+#include "numerics/dense.h"
 #include "random_walk.h"
 #include "subimpact/numerics/banded_matrix.h"
 
 namespace subimpact {
-
-inline Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 inline Eigen::MatrixXd dense(const BandedMatrix& matrix) {
   const Eigen::Index n = index(matrix.size());

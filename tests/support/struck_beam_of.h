@@ -11,7 +11,7 @@ namespace subimpact {
 /// A beam struck by the striker of a scene, with the scene's contact law.
 inline StruckBeam struck_beam_of(const Scene& scene, std::shared_ptr<const BeamMesh> mesh,
                                  SectionField sections) {
-  auto solver = std::make_unique<BandedSolver>(mesh->mass());
+  BandedSolver solver(mesh->mass());
   return StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), make_contact_law(scene),
                                     scene.striker.mass, scene.striker.velocity,
                                     0.5 * scene.beam.youngs_modulus * scene.beam.thickness,

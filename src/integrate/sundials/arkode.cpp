@@ -53,9 +53,6 @@ class ErkSolver final : public SolverFrame {
   }
 
   void set_fixed_step(double step) { check(ERKStepSetFixedStep(memory(), step), "SetFixedStep"); }
-  void limit_first_step(double longest) {
-    SolverFrame::limit_first_step(longest, ERKStepGetCurrentStep, ERKStepSetInitStep);
-  }
 };
 
 class ArkSolver final : public SolverFrame {
@@ -94,9 +91,6 @@ class ArkSolver final : public SolverFrame {
   ~ArkSolver() { release(); }  // which takes the matrices
 
   void set_fixed_step(double step) { check(ARKStepSetFixedStep(memory(), step), "SetFixedStep"); }
-  void limit_first_step(double longest) {
-    SolverFrame::limit_first_step(longest, ARKStepGetCurrentStep, ARKStepSetInitStep);
-  }
 
   void add_counts(WorkCounts& counts) const {
     long mass_solves = 0;

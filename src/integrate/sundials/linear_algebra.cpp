@@ -12,7 +12,6 @@
 #include <new>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "integrate/sundials.h"
 #include "numerics/vector_sum.h"

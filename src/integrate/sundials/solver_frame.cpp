@@ -56,9 +56,9 @@ void SolverFrame::own(void* memory) {
   if (!memory)
     throw IntegrationFailure(0.0, calls_.prefix + std::string("Create"), "no memory", "");
   memory_.reset(memory);
-  check(calls_.set_user_data(memory, user_data()), "SetUserData");
+  check(calls_.set_user_data(memory, this), "SetUserData");
 #if SUNDIALS_VERSION_MAJOR < 7
-  check(calls_.set_message_handler(memory, keep_message, user_data()), "SetErrHandlerFn");
+  check(calls_.set_message_handler(memory, keep_message, this), "SetErrHandlerFn");
 #endif
 }
 
@@ -75,11 +75,10 @@ void SolverFrame::reset(double t, const State& y) {
   time_ = t;
 }
 
-void SolverFrame::limit_first_step(double longest, int (*get_next)(void*, sunrealtype*),
-                                   int (*set_first)(void*, sunrealtype)) {
+void SolverFrame::limit_first_step(double longest) {
   sunrealtype next = 0.0;
-  check(get_next(memory(), &next), "GetCurrentStep");
-  if (next > longest) check(set_first(memory(), longest), "SetInitStep");
+  check(calls_.get_next_step(memory(), &next), "GetCurrentStep");
+  if (next > longest) check(calls_.set_first_step(memory(), longest), "SetInitStep");
 }
 
 int SolverFrame::evolve(double& reached) {

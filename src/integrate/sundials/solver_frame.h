@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "integrate/sundials/linear_algebra.h"
@@ -37,6 +36,8 @@ struct LibraryCalls {
   int (*get_roots)(void*, int*);
   int (*get_current_time)(void*, sunrealtype*);
   int (*get_last_step)(void*, sunrealtype*);
+  int (*get_next_step)(void*, sunrealtype*);
+  int (*set_first_step)(void*, sunrealtype);
 #if SUNDIALS_VERSION_MAJOR < 7
   int (*set_message_handler)(void*, void (*)(int, const char*, const char*, char*, void*), void*);
 #endif
@@ -55,7 +56,8 @@ struct LibraryCalls {
         prefix##WFtolerances, prefix##SetMaxNumSteps, prefix##SetMaxStep,                  \
         prefix##GetNumErrTestFails, family##_ROOT_RETURN, prefix##RootInit,                \
         prefix##SetRootDirection, prefix##SetNoInactiveRootWarn, prefix##GetRootInfo,      \
-        prefix##GetCurrentTime, prefix##GetLastStep SUBIMPACT_MESSAGE_HANDLER(prefix)      \
+        prefix##GetCurrentTime, prefix##GetLastStep, prefix##GetCurrentStep,               \
+        prefix##SetInitStep SUBIMPACT_MESSAGE_HANDLER(prefix)                              \
   }
 
 /// The part that every SUNDIALS solver here shares: its memory and state, options, C callbacks,
@@ -73,6 +75,8 @@ class SolverFrame {
   SolverFrame& operator=(const SolverFrame&) = delete;
 
   void reset(double t, const State& y);
+  /// After a reset, which keeps the length of the next step.
+  void limit_first_step(double longest);
   /// One step, to its end or to the first event in it; returns the time reached.
   double step();
   /// The state reached.
@@ -93,15 +97,11 @@ class SolverFrame {
   void release() { memory_.reset(); }
   // Weights and limits of the steps, after the library's initialisation.
   void set_step_control(const IntegratorOptions& options);
-  // After a reset, which keeps the length of the next step.
-  void limit_first_step(double longest, int (*get_next)(void*, sunrealtype*),
-                        int (*set_first)(void*, sunrealtype));
   void* memory() const { return memory_.get(); }
   SUNContext context() const { return context_.get(); }
   N_Vector vector() const { return y_.get(); }
 
   static SolverFrame& of(void* user_data) { return *static_cast<SolverFrame*>(user_data); }
-  void* user_data() { return this; }
   // y' = [v, a(q, v)] of y = [q, v].
   static int rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame);
   // y' = [v, ..] at the time t, the second half written by `write_second(y, half)`.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "model/rules.h"
@@ -155,12 +154,6 @@ double difference(F force, double x, double size) {
 }
 
 }  // namespace
-
-double ContactLaw::residual_indentation(ContactHistory /*history*/) const { return 0.0; }
-
-double ContactLaw::yield_threshold(ContactHistory /*history*/) const {
-  return std::numeric_limits<double>::infinity();
-}
 
 ContactScales ContactLaw::scales() const {
   constexpr double um = 1e-6;

@@ -1,7 +1,6 @@
 #include "model/contact/contact_laws.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -164,18 +163,13 @@ Law make_linear(const Scene& scene) {
   return std::make_shared<PowerContact>(need(scene.contact.stiffness), 1.0, never, "linear");
 }
 
-MeasuredCurve loading_of(const Contact& contact) {
-  using List = std::vector<double>;
-  return {contact.curve_indentation.value_or(List()), contact.curve_force.value_or(List())};
-}
-
-MeasuredCurve unloading_of(const Contact& contact) {
-  using List = std::vector<double>;
-  return {contact.unloading_indentation.value_or(List()), contact.unloading_force.value_or(List())};
-}
-
 Law make_curve(const Scene& scene) {
-  return std::make_shared<CurveContact>(loading_of(scene.contact), unloading_of(scene.contact));
+  const auto given = [&](const std::optional<std::vector<double>> Contact::*list) {
+    return (scene.contact.*list).value_or(std::vector<double>());
+  };
+  return std::make_shared<CurveContact>(
+      MeasuredCurve{given(&Contact::curve_indentation), given(&Contact::curve_force)},
+      MeasuredCurve{given(&Contact::unloading_indentation), given(&Contact::unloading_force)});
 }
 
 constexpr const char* nose[] = {"striker.nose_radius"};

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace subimpact {
@@ -114,14 +113,6 @@ double CurveContact::slope(ContactHistory history, double indentation) const {
   const double largest = history.max_indentation;
   if (!yields_ || largest <= 0.0) return loading_.slope(indentation);
   return loading_.value(largest) * unloading_.slope(place(largest, indentation)) / length(largest);
-}
-
-double CurveContact::residual_indentation(ContactHistory history) const {
-  return residual_share_ * history.max_indentation;
-}
-
-double CurveContact::yield_threshold(ContactHistory history) const {
-  return yields_ ? history.max_indentation : std::numeric_limits<double>::infinity();
 }
 
 ContactScales CurveContact::scales() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,17 +15,13 @@ struct MeasuredCurve {
   std::vector<double> indentations, forces;
 };
 
-/// A contact as measured: loading along one curve and, where one is given, unloading along another.
-///
-/// Model: the first loading follows F(lambda), a MonotoneCurve through its points, up to the last
-/// one, lambda_1. Without a curve of unloading the contact is elastic. With one, from the residual
-/// indentation rho lambda_1 up to the last point of loading, unloading and reloading from any
-/// largest indentation lambda_m follow the same curve to scale,
+/// A contact as measured: the first loading follows F(lambda), a MonotoneCurve through its points,
+/// up to the last one, lambda_1. Without a curve of unloading the contact is elastic. With one,
+/// from the residual indentation rho lambda_1 up to the last point of loading, unloading and
+/// reloading from any largest indentation lambda_m follow the same curve to scale,
 ///
 ///     F(lambda_m) psi(s),  s = (lambda - rho lambda_m)/((1 - rho) lambda_m),
-/// with psi(s) the measured unloading over F(lambda_1): the residual indentation is rho lambda_m.
-/// Energies are exact integrals of the curves.
-///
+/// with psi(s) the measured unloading over F(lambda_1). Energies are exact integrals of the curves.
 /// Valid up to lambda_1, for velocities at which the curve was measured.
 class CurveContact final : public ContactLaw {
  public:
@@ -33,8 +30,12 @@ class CurveContact final : public ContactLaw {
 
   std::string name() const override { return "curve"; }
   double force(ContactHistory history, double indentation) const override;
-  double residual_indentation(ContactHistory history) const override;
-  double yield_threshold(ContactHistory history) const override;
+  double residual_indentation(ContactHistory history) const override {
+    return residual_share_ * history.max_indentation;
+  }
+  double yield_threshold(ContactHistory history) const override {
+    return yields_ ? history.max_indentation : std::numeric_limits<double>::infinity();
+  }
   ContactScales scales() const override;
   double slope(ContactHistory history, double indentation) const override;
   double plastic_force(double indentation) const override { return loading_.value(indentation); }

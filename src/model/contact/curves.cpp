@@ -1,7 +1,5 @@
 #include "model/contact/curves.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <stdexcept>
 

@@ -23,10 +23,8 @@ struct ValueAndSlope {
 ///     cylinder  p_m = p_y/2 (sqrt(1 - q^2) + asin(q)/q),
 ///
 /// where p_y is a largest pressure, which the mean nears when fully plastic; or the mean rises with
-/// the depth of the dent, x = E* a/(Y R), by the model of an expanding core:
+/// the depth of the dent by the model of an expanding core (p_c: docs/theory/contact.md):
 ///
-///     ball      p_c/Y = 1/2 + 2/3 (1 + ln(x/3))
-///     cylinder  p_c/Y = (1 + ln(4 x/(3 pi)))/sqrt(3)
 ///     p_m = p (1 + (p/p_f)^16)^(-1/16),  p = p_c + A q^1.5 + B q^3,  p_f = 2.8 Y (fully plastic)
 ///
 /// from p_0 = 1.6 Y (ball) or 1.67 Y (cylinder) on. A and B make p_m and its slope Hertz's at a_y:

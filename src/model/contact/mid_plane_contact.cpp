@@ -1,6 +1,5 @@
 #include "model/contact/mid_plane_contact.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -115,14 +114,6 @@ MidPlaneContact::Dent MidPlaneContact::dent_of(ContactHistory history) const {
     const double a = half_width_at(deepest), stiffness = loading_force(a).at / power(a);
     return {stiffness, 0.5 * a * a / nose_.radius * (1.0 - stiffness / nose_.stiffness)};
   });
-}
-
-double MidPlaneContact::residual_indentation(ContactHistory history) const {
-  return dent_of(history).residual;
-}
-
-double MidPlaneContact::yield_threshold(ContactHistory history) const {
-  return std::max(history.max_indentation, first_yield_);
 }
 
 double MidPlaneContact::largest_indentation() const {

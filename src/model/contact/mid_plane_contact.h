@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -22,17 +23,10 @@ struct NoseOnBeam {
 
 /// A round nose on a beam, its indentation lambda measured from the mid-plane: the displacement of
 /// the nose minus that of the beam's axis, as the equations of motion have it. Closed forms in the
-/// half width a of the contact, whose area is A:
-///
-///     elastic     F = k a^n,               lambda = a^2/(2 R) + c(a) F
-///     plastic     F = A(a) p_m(a),         lambda = a^2/(2 R) + c(a) F
-///     unloading   F = k_m a^n,             lambda = lambda_r + k_m/k a^2/(2 R) + c(a) F,
-///                 k_m = F_m/a_m^n,         lambda_r = (1 - k_m/k) a_m^2/(2 R)
-///
-/// c(a) F is what the surface gives way beside its shape, at the middle of the contact, less what
-/// the mid-plane does. A pressed-in nose has a^2 = 2 R lambda, less what springs back; a contact
-/// that unloads is elastic with the radius R k/k_m of the dent. Force, slope of the loading curve
-/// and indentation are continuous. Energies are integrals in a, exact to rounding.
+/// half width a of the contact (docs/theory/contact.md, "From mid-plane and half-space"): c(a) F is
+/// what the surface gives way beside its shape, at the middle of the contact, less what the
+/// mid-plane does; a contact that unloads is elastic with the radius R k/k_m of the dent. Force,
+/// slope of the loading curve and indentation are continuous.
 class MidPlaneContact final : public ContactLaw {
  public:
   /// Without a pressure the contact never yields.
@@ -40,8 +34,12 @@ class MidPlaneContact final : public ContactLaw {
 
   std::string name() const override { return name_; }
   ContactScales scales() const override;
-  double residual_indentation(ContactHistory history) const override;
-  double yield_threshold(ContactHistory history) const override;
+  double residual_indentation(ContactHistory history) const override {
+    return dent_of(history).residual;
+  }
+  double yield_threshold(ContactHistory history) const override {
+    return std::max(history.max_indentation, first_yield_);
+  }
   double force(ContactHistory history, double indentation) const override;
   double slope(ContactHistory history, double indentation) const override;
   double plastic_force(double indentation) const override;
@@ -84,24 +82,14 @@ struct BodiesOfBall {
   double of_ellipse = 1.0;  ///< F_2: approach over that of a circle, under the same force
 };
 
-/// A ball on a beam, or on a half-space (infinite d), with E* of both bodies, E and nu of the beam,
-/// the depth d of its mid-plane and theta = atan(a/d):
+/// A ball on a beam, valid up to a = d, or on a half-space (infinite d). What a half-space moves at
+/// the depth d under Hertz's pressure is no indentation but belongs to the beam: under a rigid
+/// ball, for small a, the share 4/3 (3 - 2 nu)/(2 pi (1 - nu)) a/d of Hertz's.
 ///
-///     F      = 4 E* a^3/(3 R)   (elastic: Hertz)
-///     lambda = a^2/(2 R) + 3 F/(8 E* a) - C(a) F
-///     C      = 3 (1 + nu)/(2 pi E a^3) (d^2 (a/d - theta) + (1 - nu) ((a^2 + d^2) theta - a d))
-///
-/// C F is what a half-space moves at the depth d under Hertz's pressure, which is no indentation
-/// but belongs to the beam: under a rigid ball, for small a, the share
-/// 4/3 (3 - 2 nu)/(2 pi (1 - nu)) a/d of Hertz's. Valid up to a = d.
-///
-/// A touch in an ellipse counts as one in a circle of the same area, with R the geometric mean of
-/// the radii of the gap, and 2 F_2 - 1 times the second term of lambda, so that the elastic
-/// stiffness is that of the ellipse. For mild ones: pressures are 2 % off where one radius is twice
-/// the other, a tenth where it is five times the other.
-///
-/// Source: K. L. Johnson, Contact Mechanics, sections 3.2 (Boussinesq's displacement of a point
-/// load, here integrated over the pressure), 4.2 and 6.3.
+/// A touch in an ellipse counts as one in a circle of the same area, with the elastic stiffness of
+/// the ellipse. For mild ones: pressures are 2 % off where one radius is twice the other, a tenth
+/// where it is five times the other. Source: K. L. Johnson, Contact Mechanics, sections 3.2, 4.2
+/// and 6.3.
 NoseOnBeam ball_on_beam(const BodiesOfBall& bodies);
 
 struct BodiesOfLine {
@@ -111,21 +99,12 @@ struct BodiesOfLine {
   double nose_modulus;          ///< E_2*, Pa; infinite: rigid
 };
 
-/// A cylinder across a beam, which touches it along a line: per width F' = F/b, with
-/// 1/E* = 1/E_1* + 1/E_2*, k = nu_1/(1 - nu_1) and the depth d of the mid-plane,
-///
-///     F'     = pi E* a^2/(4 R)   (elastic)
-///     lambda = a^2/(2 R) - 2 F'/(pi E*)
-///              + F'/(pi E_1*) (2 ln(2 d/a) - k) + F'/(pi E_2*) (2 ln(4 R/a) - 1)
-///
-/// The first two terms are the shape under Hertz's pressure (an even one would have -1.77 for -2),
-/// the next ones what beam and nose give way down to the mid-plane and up to the middle of the
-/// nose: the approach of points far away is infinite. Plane strain: for noses much longer than the
-/// contact is wide, while the last three terms exceed F'/(2 pi E*); under a rigid nose that is up
-/// to a = 2 d exp(-(k + 2.5)/2), and unloading turns back at 2 d exp(-(k + 1)/2).
-///
-/// Source: K. L. Johnson, Contact Mechanics, equations 4.43, 4.45, 5.57 and 5.58, of
-/// which a nose has half: a cylinder between two plates.
+/// A cylinder across a beam, which touches it along a line, in plane strain: for noses much longer
+/// than the contact is wide. Of F/(pi E* b) the indentation has a^2/(2 R), -2 of the shape under
+/// Hertz's pressure, and what beam and nose give way down to the mid-plane and up to the middle of
+/// the nose, as the approach of points far away is infinite. Valid while all but the first exceed
+/// 1/2. Source: K. L. Johnson, Contact Mechanics, equations 4.43, 4.45, 5.57 and 5.58, of which a
+/// nose has half: a cylinder between two plates.
 NoseOnBeam cylinder_across(const BodiesOfLine& bodies);
 
 }  // namespace subimpact

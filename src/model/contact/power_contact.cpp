@@ -1,6 +1,5 @@
 #include "model/contact/power_contact.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -93,14 +92,6 @@ SphereContact::Unloading SphereContact::unloading(ContactHistory history) const 
   const double a = std::sqrt((2.0 * force + yield_force_) / (2.0 * M_PI * pressure_));
   const double length = 0.75 * force / (modulus_ * a);
   return {force, length, std::max(history.max_indentation - length, 0.0)};
-}
-
-double SphereContact::residual_indentation(ContactHistory history) const {
-  return unloading(history).residual;
-}
-
-double SphereContact::yield_threshold(ContactHistory history) const {
-  return std::max(history.max_indentation, yield_indentation_);
 }
 
 double SphereContact::force(ContactHistory history, double indentation) const {

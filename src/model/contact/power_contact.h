@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "subimpact/model/contact/contact_law.h"
@@ -22,8 +23,6 @@ class PowerContact final : public ContactLaw {
   PowerContact(double stiffness, double exponent, double yield_indentation,
                std::string name = "power law", Limit limit = Limit::width);
 
-  double stiffness() const { return stiffness_; }
-  double exponent() const { return exponent_; }
   double yield_indentation() const { return yield_indentation_; }
 
   std::string name() const override { return name_; }
@@ -57,19 +56,12 @@ class PowerContact final : public ContactLaw {
   Limit limit_;
 };
 
-/// A sphere that yields, or is pressed into a surface that does: Hertz's law up to the indentation
-/// delta_y; then the pressure is cut off at p_y over the growing contact, and unloading is Hertz's
-/// again with the radius of the dent. With a of the contact circle and F_m, delta_m at the deepest
-/// point,
-///
-///     delta_y = (pi p_y/(2 E*))^2 R,   F_y = 4/3 E* sqrt(R) delta_y^1.5
-///     loading     F = F_y + pi p_y R (delta - delta_y)
-///     unloading   F = F_m (1 - (delta_m - delta)/d)^1.5,   d = 3 F_m/(4 E* a),
-///                 a^2 = (2 F_m + F_y)/(2 pi p_y)
-///
-/// Valid for dents small compared with R, between fully elastic and fully plastic pressure. Source:
-/// C. Thornton, Coefficient of restitution for collinear collisions of elastic-perfectly plastic
-/// spheres, J. Appl. Mech. 64 (1997) 383.
+/// A sphere that yields, or is pressed into a surface that does (docs/theory/contact.md,
+/// "Contact"): Hertz's law up to the indentation delta_y; then the pressure is cut off at p_y over
+/// the growing contact, and unloading is Hertz's again with the radius of the dent. Valid for dents
+/// small compared with R, between fully elastic and fully plastic pressure. Source: C. Thornton,
+/// Coefficient of restitution for collinear collisions of elastic-perfectly plastic spheres, J.
+/// Appl. Mech. 64 (1997) 383.
 class SphereContact final : public ContactLaw {
  public:
   /// R (m), E* (Pa), p_y (Pa), positive and finite; throws std::invalid_argument otherwise.
@@ -77,8 +69,12 @@ class SphereContact final : public ContactLaw {
 
   std::string name() const override { return "sphere"; }
   ContactScales scales() const override;
-  double residual_indentation(ContactHistory history) const override;
-  double yield_threshold(ContactHistory history) const override;
+  double residual_indentation(ContactHistory history) const override {
+    return unloading(history).residual;
+  }
+  double yield_threshold(ContactHistory history) const override {
+    return std::max(history.max_indentation, yield_indentation_);
+  }
   double force(ContactHistory history, double indentation) const override;
   double slope(ContactHistory history, double indentation) const override;
   double plastic_force(double indentation) const override;

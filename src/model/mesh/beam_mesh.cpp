@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "numerics/lanes.h"
-#include "numerics/mass_solver.h"
 
 namespace subimpact {
 
@@ -82,12 +81,9 @@ BandedMatrix BeamMesh::slope_form() const {
   return form;
 }
 
-void BeamMesh::moment_weights(std::span<const double> unknowns, std::span<double> weights) const {
-  curvatures(unknowns, weights);
-  for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= -weights_[j];
+std::string BeamMesh::described(std::size_t n, const char* parts) const {
+  return std::to_string(n) + " " + parts + (symmetric_ ? ", one half by symmetry" : "");
 }
-
-std::unique_ptr<MassSolver> BeamMesh::make_mass_solver() const { return nullptr; }
 
 void BeamMesh::add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const {
   shear_stiffness_.subtract_product(unknowns, forces);

@@ -76,10 +76,7 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
   if (!symmetric()) assemble_moment();
   place_sections();
   place_strike(position);
-  if (ends_[0] == EndSupport::free) {  // no curvature there
-    first_end_.terms = {{0, 1.0 + first_centre_}, {1, -first_centre_}};
-    if (first_centre_ == 0.0) first_end_.terms.pop_back();
-  }
+  first_end_ = *displacement_at(0.0);
 }
 
 SparseFunctional CellMesh::cell(std::size_t i) const {
@@ -308,14 +305,6 @@ NaturalModes CellMesh::natural_modes(double bending_stiffness) const {
       {n_cells_, spacing_, mass_per_length_, rotary_inertia_, bending_stiffness}, symmetric(), n);
   normalise(modes, mass());
   return modes;
-}
-
-std::string CellMesh::description() const {
-  return std::to_string(n_cells_) +
-         (first_centre_ == 0.0 ? " points"
-          : whole_             ? " whole cells"
-                               : " cells") +
-         (symmetric() ? ", one half by symmetry" : "");
 }
 
 }  // namespace subimpact

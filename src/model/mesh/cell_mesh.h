@@ -40,7 +40,9 @@ class CellMesh final : public BeamMesh {
   /// In closed form if both ends are free and all links alike (see free_cell_modes).
   NaturalModes natural_modes(double bending_stiffness) const override;
   bool has_closed_modes() const override;
-  std::string description() const override;
+  std::string description() const override {
+    return described(n_cells_, first_centre_ == 0.0 ? "points" : whole_ ? "whole cells" : "cells");
+  }
 
  private:
   // One section at a supported end: its curvature from the two outermost unknowns, outer first.

@@ -60,9 +60,4 @@ ElementMesh::ElementMesh(const Beam& beam, ElementNodes nodes, std::size_t degre
   for (const ElementNodes::Node& node : nodes_.nodes) translation_[node.displacement] = 1.0;
 }
 
-std::string ElementMesh::described(const char* elements) const {
-  return std::to_string(nodes_.n_elements_whole()) + " " + elements +
-         (symmetric() ? ", one half by symmetry" : "");
-}
-
 }  // namespace subimpact

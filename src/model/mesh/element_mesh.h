@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "subimpact/model/mesh/beam_mesh.h"
@@ -53,8 +52,6 @@ class ElementMesh : public BeamMesh {
 
   /// With what the nodes decide: struck point, first end and translation.
   ElementMesh(const Beam& beam, ElementNodes nodes, std::size_t degree, std::size_t half_bandwidth);
-  /// "200 Hermite elements, one half by symmetry"
-  std::string described(const char* elements) const;
 
   ElementNodes nodes_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "model/mesh/modes.h"
 #include "model/rules.h"
 
 namespace subimpact {
@@ -48,17 +49,8 @@ class MatrixMesh final : public BeamMesh {
       }
     }
   }
-  // x Mass - K is positive definite above the largest eigenvalue x, and only there.
   double highest_frequency(double bending_stiffness) const override {
-    const std::size_t bandwidth = std::max(stiffness_bandwidth(), mass_.half_bandwidth());
-    BandedMatrix stiffness(n_unknowns(), bandwidth), opposite = stiffness;
-    add_stiffness(std::vector<double>(n_sections(), bending_stiffness), stiffness);
-    opposite.add(-1.0, stiffness);
-    const auto is_above = [&](double x) {
-      BandedMatrix shifted = opposite;
-      shifted.add(x, mass_);
-      return shifted.cholesky_factor().has_value();
-    };
+    const auto is_above = above_spectrum(*this, bending_stiffness);
     double above = 1.0;
     while (!is_above(above)) above *= 4.0;
     for (double factor = 0.25; factor < 0.999; factor = std::sqrt(factor)) {

@@ -1,10 +1,9 @@
 #include "model/mesh/modal_mesh.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "numerics/dense.h"
 #include "numerics/lanes.h"
 
 namespace subimpact {
@@ -13,8 +12,6 @@ namespace {
 using Vector = Eigen::Map<Eigen::VectorXd>;
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
 using ConstMatrix = Eigen::Map<const Eigen::MatrixXd>;
-
-Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 ConstMatrix matrix(const NaturalModes& modes) {
   return {modes.shapes.data(), index(modes.size()), index(modes.size())};
@@ -48,21 +45,17 @@ ModalMesh::ModalMesh(std::shared_ptr<const BeamMesh> physical, double bending_st
     translation_.resize(n);
     to_modal(physical_->translation(), translation_);
   }
-  momentum_functional_.resize(n);
-  if (!physical_->moment_functional().empty()) moment_functional_.resize(n);
-  if (is_sprung()) {
-    for (auto* functional : {&ground_force_, &ground_moment_}) functional->resize(n);
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    const double* shape = modes_.shape(k).data();
-    momentum_functional_[k] = dot(physical_->momentum_functional().data(), shape, n);
-    struck_curvature_.push_back(physical_->curvature(struck_section_, modes_.shape(k)));
-    if (is_sprung()) {
-      ground_force_[k] = dot(physical_->ground_force().data(), shape, n);
-      ground_moment_[k] = dot(physical_->ground_moment().data(), shape, n);
+  const auto to_modes = [&](std::span<const double> functional, std::vector<double>& modal) {
+    for (std::size_t k = 0; k < n && !functional.empty(); ++k) {
+      modal.push_back(dot(functional.data(), modes_.shape(k).data(), n));
     }
-    if (moment_functional_.empty()) continue;
-    moment_functional_[k] = dot(physical_->moment_functional().data(), shape, n);
+  };
+  to_modes(physical_->momentum_functional(), momentum_functional_);
+  to_modes(physical_->moment_functional(), moment_functional_);
+  to_modes(physical_->ground_force(), ground_force_);
+  to_modes(physical_->ground_moment(), ground_moment_);
+  for (std::size_t k = 0; k < n; ++k) {
+    struck_curvature_.push_back(physical_->curvature(struck_section_, modes_.shape(k)));
   }
   beam_mass_ = physical_->beam_mass();
 }
@@ -75,10 +68,6 @@ SparseFunctional ModalMesh::in_modes(const SparseFunctional& physical) const {
     modal.terms.push_back({k, modal.dense.back()});
   }
   return modal;
-}
-
-SparseFunctional ModalMesh::curvature_functional(std::size_t section) const {
-  return in_modes(physical_->curvature_functional(section));
 }
 
 std::optional<SparseFunctional> ModalMesh::displacement_at(double x) const {
@@ -156,11 +145,5 @@ double ModalMesh::shear_energy(std::span<const double> unknowns) const {
   to_physical(unknowns, work_);
   return physical_->shear_energy(work_);
 }
-
-BeamMesh::SectionStencil ModalMesh::section_stencil(std::size_t) const {
-  throw std::logic_error("modal mesh: a section's curvature depends on all unknowns");
-}
-
-std::string ModalMesh::description() const { return physical_->description() + modal_description; }
 
 }  // namespace subimpact

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
 
 #include "subimpact/model/mesh/beam_mesh.h"
 
@@ -26,13 +27,17 @@ class ModalMesh final : public BeamMesh {
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
-  SectionStencil section_stencil(std::size_t section) const override;
+  SectionStencil section_stencil(std::size_t /*section*/) const override {
+    throw std::logic_error("modal mesh: a section's curvature depends on all unknowns");
+  }
   bool shears() const override { return physical_->shears(); }
   bool is_sprung() const override { return physical_->is_sprung(); }
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
   double curvature(std::size_t section, std::span<const double> unknowns) const override;
-  SparseFunctional curvature_functional(std::size_t section) const override;
+  SparseFunctional curvature_functional(std::size_t section) const override {
+    return in_modes(physical_->curvature_functional(section));
+  }
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
   double highest_frequency(double bending_stiffness) const override;
@@ -40,7 +45,7 @@ class ModalMesh final : public BeamMesh {
   bool has_closed_modes() const override { return physical_->has_closed_modes(); }
   double closed_modes_work() const override { return physical_->closed_modes_work(); }
   std::span<const double> modal_stiffness() const override { return stiffness_; }
-  std::string description() const override;
+  std::string description() const override { return physical_->description() + modal_description; }
 
   void to_physical(std::span<const double> modal, std::span<double> physical) const;
   /// z_k = phi_k^T Mass q/(m_beam/n).

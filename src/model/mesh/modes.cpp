@@ -181,28 +181,12 @@ constexpr int n_iterations = 12;
 using Vector = std::vector<double>;
 using Matrix = Eigen::MatrixXd;
 
-Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 std::span<double> column(Matrix& matrix, std::size_t k) {
   return {matrix.col(index(k)).data(), static_cast<std::size_t>(matrix.rows())};
 }
 
 void add(Vector& sum, double factor, std::span<const double> other) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * other[i];
-}
-
-SlowMotion from_all_modes(const BeamMesh& mesh, double stiffness, std::size_t n_modes) {
-  const NaturalModes modes = mesh.natural_modes(stiffness);
-  SlowMotion found{{}, {}, Vector(mesh.n_unknowns(), 0.0)};
-  for (std::size_t k = 0; k < modes.size(); ++k) {
-    const std::span<const double> phi = modes.shape(k);
-    const double omega = modes.frequencies[k];
-    if (omega > 0.0) add(found.response, mesh.struck_point()(phi) / (omega * omega), phi);
-    if (k >= n_modes) continue;
-    found.frequencies.push_back(omega);
-    found.shapes.emplace_back(phi.begin(), phi.end());
-  }
-  return found;
 }
 
 // Where the unknowns are modes: stiffness and mass are diagonal.
@@ -226,8 +210,7 @@ class SlowMotionByBands {
       : mesh_(mesh),
         n_(mesh.n_unknowns()),
         shift_(shift_share * std::pow(2.0 * std::numbers::pi / first_period, 2)),
-        stiffness_(n_, std::max(mesh.stiffness_bandwidth(), mesh.mass().half_bandwidth())) {
-    mesh.add_stiffness(Vector(mesh.n_sections(), bending_stiffness), stiffness_);
+        stiffness_(elastic_stiffness(mesh, bending_stiffness)) {
     BandedMatrix shifted = stiffness_;
     shifted.add(shift_, mesh.mass());
     factor_ = shifted.cholesky_factor();
@@ -302,10 +285,26 @@ class SlowMotionByBands {
 
 }  // namespace
 
+BandedMatrix elastic_stiffness(const BeamMesh& mesh, double bending_stiffness) {
+  const std::size_t bandwidth = std::max(mesh.stiffness_bandwidth(), mesh.mass().half_bandwidth());
+  BandedMatrix matrix(mesh.n_unknowns(), bandwidth);
+  mesh.add_stiffness(Vector(mesh.n_sections(), bending_stiffness), matrix);
+  return matrix;
+}
+
+// x Mass - K is positive definite above the largest eigenvalue x, and only there.
+std::function<bool(double)> above_spectrum(const BeamMesh& mesh, double bending_stiffness) {
+  return [&mesh, stiffness = elastic_stiffness(mesh, bending_stiffness)](double x) {
+    BandedMatrix shifted(stiffness.size(), stiffness.half_bandwidth());
+    shifted.add(-1.0, stiffness);
+    shifted.add(x, mesh.mass());
+    return shifted.cholesky_factor().has_value();
+  };
+}
+
 std::optional<SlowMotion> slow_motion(const BeamMesh& mesh, double bending_stiffness,
                                       double first_period, std::size_t n_modes) {
   if (!mesh.modal_stiffness().empty()) return from_unknowns(mesh, n_modes);
-  if (mesh.n_sections() == 0) return from_all_modes(mesh, bending_stiffness, n_modes);
   return SlowMotionByBands(mesh, bending_stiffness, first_period).find(n_modes);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -83,6 +84,12 @@ constexpr bool has_closed_modes(std::array<EndSupport, 2> ends) {
 /// normalised. Empty if one end is free and the other clamped, or if the number of modes found is
 /// not that of the unknowns: the matrix must then be decomposed.
 std::optional<NaturalModes> hermite_chain_modes(const HermiteChain& chain);
+
+/// K of an elastic beam, N/m, in a band in which the mass fits too.
+BandedMatrix elastic_stiffness(const BeamMesh& mesh, double bending_stiffness);
+
+/// Whether a number (rad2/s2) exceeds the squares of all natural frequencies.
+std::function<bool(double)> above_spectrum(const BeamMesh& mesh, double bending_stiffness);
 
 /// The lowest natural modes of a mesh, elastic, and its static response to a force at the struck
 /// point.

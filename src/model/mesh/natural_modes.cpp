@@ -1,7 +1,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "model/mesh/modes.h"
 #include "numerics/dense.h"
@@ -63,41 +62,29 @@ constexpr double cluster_share = 1e-6;
 constexpr double small_correction = 1e-5;
 constexpr int most_corrections = 4;
 
+// What write(shape, column) makes of every shape, from columns of `size` zeros.
+template <class Write>
+Eigen::MatrixXd of_every(const Eigen::MatrixXd& shapes, std::size_t size, Write write) {
+  const auto n = static_cast<std::size_t>(shapes.rows());
+  const auto rows = static_cast<Eigen::Index>(size);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, shapes.cols());
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    write(std::span(shapes.col(k).data(), n), std::span(columns.col(k).data(), size));
+  }
+  return columns;
+}
+
 // B phi for every mode, times the root of each section's weight and stiffness: S = phi^T K phi is
 // the product of this matrix with itself, and low modes keep their digits in spite of high ones,
 // which K phi would take from them.
 Eigen::MatrixXd scaled_curvatures(const BeamMesh& mesh, double bending_stiffness,
                                   const Eigen::MatrixXd& shapes) {
-  const auto n = static_cast<std::size_t>(shapes.rows());
-  Eigen::MatrixXd scaled(static_cast<Eigen::Index>(mesh.n_sections()), shapes.cols());
-  std::vector<double> kappa(mesh.n_sections());
-  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
-    mesh.curvatures({shapes.col(k).data(), n}, kappa);
+  return of_every(shapes, mesh.n_sections(), [&](auto shape, std::span<double> kappa) {
+    mesh.curvatures(shape, kappa);
     for (std::size_t i = 0; i < kappa.size(); ++i) {
-      scaled(static_cast<Eigen::Index>(i), k) =
-          std::sqrt(mesh.section_weights()[i] * bending_stiffness) * kappa[i];
+      kappa[i] *= std::sqrt(mesh.section_weights()[i] * bending_stiffness);
     }
-  }
-  return scaled;
-}
-
-// K_s phi for every mode.
-Eigen::MatrixXd sprung(const BeamMesh& mesh, const Eigen::MatrixXd& shapes) {
-  const auto n = static_cast<std::size_t>(shapes.rows());
-  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(shapes.rows(), shapes.cols());
-  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
-    mesh.add_shear_forces({shapes.col(k).data(), n}, {forces.col(k).data(), n});
-  }
-  return -forces;
-}
-
-Eigen::MatrixXd inertia_of(const BeamMesh& mesh, const Eigen::MatrixXd& shapes) {
-  const auto n = static_cast<std::size_t>(shapes.rows());
-  Eigen::MatrixXd product(shapes.rows(), shapes.cols());
-  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
-    mesh.mass().multiply({shapes.col(k).data(), n}, {product.col(k).data(), n});
-  }
-  return product;
+  });
 }
 
 // X becomes X (I + E), where E removes to first order what keeps X^T Mass X from I and X^T K X from
@@ -106,13 +93,17 @@ Eigen::MatrixXd inertia_of(const BeamMesh& mesh, const Eigen::MatrixXd& shapes) 
 // of theirs, which grows as the fourth power of the number of elements. Returns the largest of E.
 double correct_shapes(const BeamMesh& mesh, double bending_stiffness, Eigen::MatrixXd& shapes) {
   const Eigen::Index n = shapes.cols();
+  const std::size_t size = mesh.n_unknowns();
   Eigen::MatrixXd energies = Eigen::MatrixXd::Zero(n, n);  // lower halves only
   energies.selfadjointView<Eigen::Lower>().rankUpdate(
       scaled_curvatures(mesh, bending_stiffness, shapes).transpose());
-  if (mesh.is_sprung())
-    energies.triangularView<Eigen::Lower>() += shapes.transpose() * sprung(mesh, shapes);
+  if (mesh.is_sprung()) {  // forces are -K_s phi
+    const auto forces = [&](auto phi, auto force) { mesh.add_shear_forces(phi, force); };
+    energies.triangularView<Eigen::Lower>() -= shapes.transpose() * of_every(shapes, size, forces);
+  }
   Eigen::MatrixXd products(n, n);
-  products.triangularView<Eigen::Lower>() = shapes.transpose() * inertia_of(mesh, shapes);
+  const auto inertia = [&](auto phi, auto of_phi) { mesh.mass().multiply(phi, of_phi); };
+  products.triangularView<Eigen::Lower>() = shapes.transpose() * of_every(shapes, size, inertia);
   const Eigen::VectorXd eigenvalues = energies.diagonal().cwiseQuotient(products.diagonal());
   const Eigen::VectorXd frequencies = eigenvalues.cwiseMax(0.0).cwiseSqrt();
   const double rigid = std::pow(rigid_below({frequencies.data(), static_cast<std::size_t>(n)}), 2);

@@ -79,6 +79,4 @@ double SprungMesh::highest_frequency(double bending_stiffness) const {
   return std::sqrt(other * other + frequency_squared_);
 }
 
-std::string SprungMesh::description() const { return other_->description() + ", on springs"; }
-
 }  // namespace subimpact

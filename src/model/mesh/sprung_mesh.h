@@ -8,12 +8,8 @@
 namespace subimpact {
 
 /// Another mesh on springs to the ground and a uniform elastic bedding, which join its stiffness
-/// K_s:
-///
-///     K_s += sum_j k_j S_j S_j^T + integral k_f N(x) N(x)^T dx,
-///
-/// with the displacements S_j of the springs' points and N(x) of the axis at x, and the integral by
-/// Gauss points. A free beam on springs conserves no momentum: translation() is empty.
+/// K_s (docs/theory/beam.md, "Scenes"). A free beam on springs conserves no momentum: translation()
+/// is empty.
 class SprungMesh final : public BeamMesh {
  public:
   /// `n_parts`: intervals of the quadrature over the whole beam; `one_point`: at their middle, of
@@ -34,12 +30,6 @@ class SprungMesh final : public BeamMesh {
   }
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
-  double curvature(std::size_t section, std::span<const double> unknowns) const override {
-    return other_->curvature(section, unknowns);
-  }
-  SparseFunctional curvature_functional(std::size_t section) const override {
-    return other_->curvature_functional(section);
-  }
   std::optional<SparseFunctional> displacement_at(double x) const override {
     return other_->displacement_at(x);
   }
@@ -49,11 +39,8 @@ class SprungMesh final : public BeamMesh {
   std::vector<Slope> slopes() const override { return other_->slopes(); }
   /// An upper bound: the sum of the squares of both.
   double highest_frequency(double bending_stiffness) const override;
-  void moment_weights(std::span<const double> unknowns, std::span<double> weights) const override {
-    other_->moment_weights(unknowns, weights);
-  }
   bool prefers_modes() const override { return other_->prefers_modes(); }
-  std::string description() const override;
+  std::string description() const override { return other_->description() + ", on springs"; }
 
  private:
   void add_spring(double x, double stiffness, double length);

@@ -167,14 +167,10 @@ Fibres::Response Fibres::response(double x) const {
                  0.5 * (whole_.s0 - elastic.s0))};
 }
 
-double Fibres::moment(double x) const { return response(x).moment; }
-
 double Fibres::tangent(double x) const {
   const double size = std::abs(x);
   return size <= first_yield_ ? slope_ : 3.0 * up_to(1.0 / size).s2;
 }
-
-double Fibres::work(double x) const { return response(x).work; }
 
 double Fibres::energy(double a, double b, double constant, double slope) const {
   const Moments lower = a > 0.0 ? up_to(a) : Moments{};

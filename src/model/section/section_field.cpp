@@ -18,16 +18,11 @@ SectionField::SectionField(std::size_t n_sections, double stiffness)
       offset_(n_sections, 0.0) {}
 
 SectionField::SectionField(std::size_t n_sections, const SectionLaw& law)
-    : law_(law),
-      stiffness_(law.stiffness()),
-      low_(n_sections),
-      high_(n_sections),
-      offset_(n_sections),
-      slot_(n_sections, -1) {
-  const ElasticWindow window = law.window(virgin);
-  std::fill(low_.begin(), low_.end(), window.low);
-  std::fill(high_.begin(), high_.end(), window.high);
-  std::fill(offset_.begin(), offset_.end(), window.offset);
+    : law_(law), stiffness_(law.stiffness()), slot_(n_sections, -1) {
+  const auto [low, high, offset] = law.window(virgin);
+  low_.assign(n_sections, low);
+  high_.assign(n_sections, high);
+  offset_.assign(n_sections, offset);
 }
 
 const SectionHistory& SectionField::history(std::size_t section) const {
@@ -35,23 +30,10 @@ const SectionHistory& SectionField::history(std::size_t section) const {
   return slot < 0 ? virgin : memory_[static_cast<std::size_t>(slot)];
 }
 
-SectionHistory& SectionField::stored_history(std::size_t section) {
-  int& slot = slot_[section];
-  if (slot < 0) {
-    slot = static_cast<int>(memory_.size());
-    memory_.emplace_back();
-    memory_.back().reversals.reserve(8);
-    at_rest_.emplace_back();
-  }
-  return memory_[static_cast<std::size_t>(slot)];
-}
-
-bool SectionField::has_yielded(std::size_t section) const {
-  return can_yield() && history(section).direction != 0;
-}
-
 void SectionField::moments(std::span<const double> curvatures, std::span<double> moments,
                            std::vector<Outside>* outside) const {
+  if (outside != nullptr) outside->clear();
+  if (!law_) return smooth_moments(curvatures, moments);
   const std::size_t n = curvatures.size();
   const double* k = curvatures.data();
   const double* low = low_.data();
@@ -59,12 +41,6 @@ void SectionField::moments(std::span<const double> curvatures, std::span<double>
   const double* offset = offset_.data();
   double* m = moments.data();
   const double stiffness = stiffness_;  // out of reach of the stores
-  if (outside != nullptr) outside->clear();
-  if (!law_) {
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < n; ++i) m[i] = stiffness * k[i] - offset[i];
-    return;
-  }
   const auto correct_outside = [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) {
       if (!(k[i] > high[i] || k[i] < low[i])) continue;
@@ -128,15 +104,16 @@ double SectionField::smooth_tangent(std::size_t section, double curvature) const
 }
 
 void SectionField::commit_reversal(std::size_t section, double curvature) {
-  SectionHistory& history = stored_history(section);
-  if (history.direction == 0) ++n_yielded_;
-  law_->commit(history, curvature);
-  follow_history(section);
-}
-
-void SectionField::follow_history(std::size_t section) {
-  at_rest_[static_cast<std::size_t>(slot_[section])].reset();
-  const ElasticWindow window = law_->window(history(section));
+  if (slot_[section] < 0) {
+    slot_[section] = static_cast<int>(memory_.size());
+    memory_.emplace_back().reversals.reserve(8);
+    at_rest_.emplace_back();
+  }
+  const auto slot = static_cast<std::size_t>(slot_[section]);
+  if (memory_[slot].direction == 0) ++n_yielded_;
+  law_->commit(memory_[slot], curvature);
+  at_rest_[slot].reset();
+  const ElasticWindow window = law_->window(memory_[slot]);
   low_[section] = window.low;
   high_[section] = window.high;
   offset_[section] = window.offset;

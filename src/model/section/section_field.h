@@ -76,8 +76,10 @@ class SectionField {
   /// Whether one of these curvatures is outside the window of its section.
   bool any_outside(std::span<const double> curvatures) const;
 
-  bool has_yielded(std::size_t section) const;
-  std::size_t n_yielded() const { return n_yielded_; }
+  bool has_yielded(std::size_t section) const {
+    return can_yield() && history(section).direction != 0;
+  }
+  std::size_t n_yielded() const { return n_yielded_; }  ///< sections in which any fibre has flowed
 
   /// Energies with integration weights (m) of the sections.
   BendingEnergies energies(std::span<const double> curvatures,
@@ -88,10 +90,8 @@ class SectionField {
   double outer_stress(std::size_t section, double curvature, double outer_stiffness) const;
 
  private:
-  SectionHistory& stored_history(std::size_t section);
   template <class Visit>
   void for_each_outside(std::span<const double> curvatures, Visit visit) const;
-  void follow_history(std::size_t section);
   // Energies of a yielded section without moment; while nothing flows, a moment M adds M^2/(2
   // stiffness) to the elastic one. They follow from the history alone, and are computed when first
   // needed after each flow.

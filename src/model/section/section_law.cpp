@@ -74,11 +74,6 @@ SectionBranch SectionLaw::branch_at(const SectionHistory& history, double x) con
   return {{0.0, 0.0}, sense, true, sense * std::numeric_limits<double>::infinity()};
 }
 
-double SectionLaw::branch_moment(const SectionBranch& branch, double x) const {
-  if (branch.virgin) return fibres_.moment(x);
-  return branch.origin.m + 2.0 * fibres_.moment(0.5 * (x - branch.origin.x));
-}
-
 Fibres::Response SectionLaw::branch_response(const SectionBranch& branch, double x) const {
   if (branch.virgin) return fibres_.response(x);
   const double step = x - branch.origin.x;
@@ -96,7 +91,7 @@ double SectionLaw::moment(const SectionHistory& history, double curvature) const
 
 double SectionLaw::flowing_moment(const SectionHistory& history, double curvature) const {
   const double x = curvature / yield_curvature_;
-  return yield_moment_ * branch_moment(branch_at(history, x), x);
+  return yield_moment_ * branch_response(branch_at(history, x), x).moment;
 }
 
 SectionBranch SectionLaw::branch_from_edge(const SectionHistory& history) const {
@@ -104,7 +99,7 @@ SectionBranch SectionLaw::branch_from_edge(const SectionHistory& history) const 
 }
 
 double SectionLaw::moment_on(const SectionBranch& branch, double curvature) const {
-  return yield_moment_ * branch_moment(branch, curvature / yield_curvature_);
+  return yield_moment_ * branch_response(branch, curvature / yield_curvature_).moment;
 }
 
 double SectionLaw::tangent_on(const SectionBranch& branch, double curvature) const {

@@ -84,7 +84,6 @@ class SectionLaw {
 
  private:
   SectionBranch branch_at(const SectionHistory& history, double x) const;
-  double branch_moment(const SectionBranch& branch, double x) const;
   // Moment, and work from the origin on.
   Fibres::Response branch_response(const SectionBranch& branch, double x) const;
   bool inside_window(const SectionHistory& history, double x) const;

@@ -53,13 +53,11 @@ class Audit {
   double tolerated_loss() const { return share_of_losses * limits_.energy * energy_scale_; }
   /// By how much impulse and integrated force may differ, N s.
   double tolerated_impulse() const { return limits_.energy * momentum_scale_; }
-  [[noreturn]] void fail(double t, OutcomeKind kind, const std::string& what) const {
-    throw RunStopped(kind, what, Interval{std::min(last_good_, t), t});
-  }
   template <class... Values>
   [[noreturn]] void fail(double t, OutcomeKind kind, fmt::format_string<Values...> what,
                          Values&&... values) const {
-    fail(t, kind, fmt::format(what, std::forward<Values>(values)...));
+    throw RunStopped(kind, fmt::format(what, std::forward<Values>(values)...),
+                     Interval{std::min(last_good_, t), t});
   }
 
   /// Whether the last check found the energy above what is tolerated.

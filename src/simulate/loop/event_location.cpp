@@ -21,7 +21,7 @@ constexpr double velocity_rounding = 1e-12;
 constexpr int most_cuts = 100;
 
 // Roots are found to rounding.
-RootOptions to_rounding(double time) { return {8.0 * epsilon * time}; }
+double to_rounding(double time) { return 8.0 * epsilon * time; }
 
 }  // namespace
 
@@ -169,7 +169,7 @@ double EventLocator::locate(const Crossing& crossing, const StepEnds& step) {
 
 std::optional<double> EventLocator::relocate(const EventFunction& function, const StepEnds& step,
                                              double latest) {
-  const RootOptions options = to_rounding(step.t1);
+  const double tolerance = to_rounding(step.t1);
   // The state at t without the correction is left in end_.
   const auto value_at = [&](double t) {
     integrator_.state_at(t, end_);
@@ -184,12 +184,12 @@ std::optional<double> EventLocator::relocate(const EventFunction& function, cons
   if (std::abs(here.value) <= rounding_of(function, beam_, trial_, step.t1, here)) return step.t1;
   const double guess = step.t1 - here.value / here.rate;
   if (here.value > 0.0) {
-    return find_rise(value_at, step.t0, step.t1, guess, options);
+    return find_rise(value_at, step.t0, step.t1, guess, tolerance);
   }
   // The zero is not reached yet: search a little later if the function certainly rises fast enough.
   const double ahead = std::min(step.t1 - 2.0 * here.value / here.rate, latest);
   if (here.rate > 0.0 && ahead > step.t1 && value_at(ahead).value > 0.0) {
-    return find_rise(value_at, step.t1, ahead, guess, options);
+    return find_rise(value_at, step.t1, ahead, guess, tolerance);
   }
   value_at(step.t1);
   return std::nullopt;

@@ -24,10 +24,8 @@ struct FoundEnd {
 
 /// Finds the end of a step: its first event of any contact (docs/theory.md, "Events"), or where its
 /// section correction stops being valid, or its own end. If sections leave their smooth pieces
-/// before the event, it is located again on the corrected trajectory.
-///
-/// With EventHandling::library the event is the root at which the integrator has ended the step
-/// (Integrator::root); one behind the end of the section correction is left to later steps.
+/// before the event, it is located again on the corrected trajectory. A root at which the
+/// integrator has ended the step counts unless it lies behind the end of the section correction.
 class EventLocator {
  public:
   EventLocator(StruckBeam& beam, Integrator& integrator, SectionCorrector& corrector,

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include "numerics/units.h"
 
@@ -103,10 +101,6 @@ void EventLoop::check_step_end() {
                    "the indentation reached " + options_.end_of_law + "; " + options_.remedy);
 }
 
-void EventLoop::check_accepted(bool now) {
-  if (now || finished() || n_steps_ % options_.audit_interval == 0) audit_.check(time_, *state_);
-}
-
 StepEnds EventLoop::step_to_end_time() {
   const double end = std::min({integrator_.time(), options_.end_time, beam_.loads().next_corner()});
   const State* y1 = &integrator_.state();
@@ -188,8 +182,7 @@ void EventLoop::report_reversals() {
     beam_.commit_reversal(event.section, curvature);
     reversals_.push_back({time, EventKind::section_reverses, event.section, curvature});
   }
-  std::sort(reversals_.begin(), reversals_.end(),
-            [](const Transition& a, const Transition& b) { return a.time < b.time; });
+  std::ranges::sort(reversals_, {}, &Transition::time);
   for (const Transition& reversal : reversals_) observer_.on_reversal(reversal);
 }
 

@@ -98,7 +98,9 @@ class EventLoop {
   void read_indentation();
   IndentationStep indentation_of(const StepEnds& piece) const;
   // Checks the state accepted at the step's end, every audit_interval steps and where required.
-  void check_accepted(bool now);
+  void check_accepted(bool now) {
+    if (now || finished() || n_steps_ % options_.audit_interval == 0) audit_.check(time_, *state_);
+  }
 
   StruckBeam& beam_;
   Integrator& integrator_;

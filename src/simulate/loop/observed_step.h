@@ -37,16 +37,8 @@ class ObservedStep {
       integrator_.state_at(t, y);
     }
   }
-  void expect(std::span<const double> times) const { integrator_.expect(times); }
-  std::optional<std::pair<double, double>> around_largest() const {
-    return integrator_.around_largest();
-  }
-  std::optional<std::pair<double, double>> around_smallest() const {
-    return integrator_.around_smallest();
-  }
-  bool integrate_squared_velocities(double t, std::span<double> result) const {
-    return integrator_.integrate_squared_velocities(t, result);
-  }
+  /// For what else it knows of its last step.
+  Integrator& integrator() const { return integrator_; }
   /// The state at a time within the step as if the step ended there, section events included.
   void corrected_state_at(double t, State& y, SectionCorrection& correction) const {
     state_at(t, y);

@@ -220,7 +220,7 @@ Losses LossQuadrature::over(const ObservedStep& step, double t, const State& y, 
   const std::span<const double> damping = beam.modal_damping();
   squares_.resize(beam.n_positions());
   const bool has_closed_form = !damping.empty() && !beam.damping().is_none() &&
-                               step.integrate_squared_velocities(t, squares_);
+                               step.integrator().integrate_squared_velocities(t, squares_);
   beam_by_quadrature_ = !beam.damping().is_none() && !has_closed_form;
   if (beam_by_quadrature_ || is_damped_in_contact(beam) || beam.loads().varies()) {
     Node start{step.t0(), step.y0(), {}, {}};

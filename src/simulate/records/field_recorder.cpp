@@ -1,12 +1,8 @@
 #include "simulate/records/field_recorder.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "numerics/units.h"
 #include "simulate/run_parts.h"
 
 namespace subimpact {
@@ -90,7 +86,10 @@ void FieldRecorder::add_row(double time, double position, double sense, std::siz
 }
 
 void FieldRecorder::follow(double time, const State& y, Accounts& accounts) {
-  add_points(time, y);
+  for (const Point& point : points_) {
+    rows_.add(PointRow{time, point.position, point.displacement(beam_.beam_positions(y)),
+                       point.displacement(beam_.beam_velocities(y))});
+  }
   if (!has_shapes()) return;
   if (time - last_followed_time_ < end_time_ / most_followed) return;
   last_followed_time_ = time;
@@ -138,13 +137,6 @@ void FieldRecorder::take_field(const Instant& instant) {
   for (std::size_t i = 0; i < field_.size(); ++i) add_row(instant.time, field_.position(i), 1.0, i);
   for (std::size_t i = field_.n_mirrored(); i-- > 0;) {
     add_row(instant.time, field_.mirrored_position(i), -1.0, i);
-  }
-}
-
-void FieldRecorder::add_points(double time, const State& y) {
-  for (const Point& point : points_) {
-    rows_.add(PointRow{time, point.position, point.displacement(beam_.beam_positions(y)),
-                       point.displacement(beam_.beam_velocities(y))});
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -77,7 +76,6 @@ class FieldRecorder {
 
  private:
   bool has_shapes() const { return field_.size() > 0 && shapes_.exist(); }
-  void add_points(double time, const State& y);
   struct Instant {
     double time;
     bool regular;  // whether runs beside one another share it, as they do events

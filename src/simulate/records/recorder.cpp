@@ -1,9 +1,5 @@
 #include "simulate/records/recorder.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "numerics/bracketed_root.h"
@@ -26,17 +22,6 @@ constexpr double tolerated_rounding = 64.0;
 
 // Places at which the largest rotation is looked for, both ends of the part modelled among them.
 constexpr int n_rotations = 17;
-
-// Those nearest to the given positions, or in a half model to their mirror images.
-std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
-                                     const BeamMesh& mesh) {
-  std::vector<std::size_t> sections;
-  for (const double fraction : fractions) {
-    const double x = length * (mesh.symmetric() ? std::min(fraction, 1.0 - fraction) : fraction);
-    sections.push_back(mesh.nearest_section(x));
-  }
-  return sections;
-}
 
 }  // namespace
 
@@ -67,13 +52,16 @@ void Recorder::on_approach(double end, StruckBeam& beam) {
 }
 
 void Recorder::keep_fields(const RunParts& parts) {
-  const double length = parts.problem.beam.length;
-  sections_ = sections_at(parts.given.output.sections, length, parts.beam.mesh());
+  const BeamMesh& mesh = parts.beam.mesh();
+  length_ = parts.problem.beam.length;
   half_height_ = 0.5 * parts.problem.beam.height();
-  length_ = length;
-  const double end = parts.beam.mesh().symmetric() ? 0.5 * length : length;
+  for (const double fraction : parts.given.output.sections) {  // or its mirror image
+    const double x = length_ * (mesh.symmetric() ? std::min(fraction, 1.0 - fraction) : fraction);
+    sections_.push_back(mesh.nearest_section(x));
+  }
+  const double end = mesh.symmetric() ? 0.5 * length_ : length_;
   for (int i = 0; i < n_rotations; ++i) {
-    const auto rotation = parts.beam.mesh().rotation_at(end * i / (n_rotations - 1));
+    const auto rotation = mesh.rotation_at(end * i / (n_rotations - 1));
     if (rotation) rotations_.push_back(*rotation);
   }
   rigid_motion_ =
@@ -108,7 +96,7 @@ void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
 
 void Recorder::add_row_of_force(const ObservedStep& step, const StruckBeam& beam) {
   const double change = std::abs(beam.contact_force(step.y0()) - last_row_.force);
-  if (change < change_of_force * largest_force_ || !(step.t0() > last_row_.time)) return;
+  if (change < change_of_force * result_.max_force || !(step.t0() > last_row_.time)) return;
   add_row(step.t0(), step.y0(), accounts_);
 }
 
@@ -120,7 +108,7 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
     } else {
       fields_->add_instants(step.t1(), row_times_);
     }
-    step.expect(row_times_);
+    step.integrator().expect(row_times_);
   }
   for (;;) {
     const double row_time = row_instants_.next();
@@ -194,6 +182,7 @@ void Recorder::follow_peak(double time, double indentation, const StruckBeam& be
   SubImpact& now = result_.sub_impacts.back();
   if (!(indentation > now.max_indentation)) return;
   now.max_indentation = indentation;
+  result_.max_indentation = std::max(result_.max_indentation, indentation);
   if (!beam.contact().is_damped()) follow_force(time, beam.contact().force(indentation));
 }
 
@@ -202,7 +191,7 @@ void Recorder::follow_force(double time, double force) {
   if (!(force > now.peak_force)) return;
   now.peak_force = force;
   now.peak_time = time;
-  largest_force_ = std::max(largest_force_, force);
+  result_.max_force = std::max(result_.max_force, force);
 }
 
 void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
@@ -224,8 +213,8 @@ void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
           beam.set_time(t);
           return beam.evaluate({EventKind::contact_unloads}, state_);
         },
-        rate0 > 0.0 ? t0 : t0 + path.first_extremum() * h,
-        rate1 < 0.0 ? t1 : t0 + path.second_extremum() * h, time, {1e-2 * h});
+        rate0 > 0.0 ? t0 : t0 + path.extrema().first * h,
+        rate1 < 0.0 ? t1 : t0 + path.extrema().second * h, time, 1e-2 * h);
   }
   follow_peak(time, beam.indentation(state_), beam);
 }
@@ -330,10 +319,6 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     result_.closest_approach = near_misses_.closest(time, y, beam);
   }
   near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
-  for (const SubImpact& s : result_.sub_impacts) {
-    result_.max_force = std::max(result_.max_force, s.peak_force);
-    result_.max_indentation = std::max(result_.max_indentation, s.max_indentation);
-  }
   supports_.finish(beam, length_, result_);
   result_.final_energies = accounts_.energies(y, time);
   if (result_.sub_impacts.empty() || !result_.sub_impacts.front().end) {
@@ -344,7 +329,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     const bool is_over = parted_at >= 0.0 || result_.no_more_contact;
     if (met_at > 0.0 && is_over) result_.restitution = parted_at / met_at;
   }
-  result_.n_yielded_sections = beam.n_yielded_sections();
+  result_.n_yielded_sections = beam.sections().n_yielded();
   result_.striker_velocity = y.back();
   result_.beam_mean_velocity = accounts_.beam_momentum(y) / beam.mesh().beam_mass();
   result_.contact_damping_loss = beam.losses().contact;
@@ -375,13 +360,11 @@ void Recorder::keep(const HistoryRow& row, const State& y, Accounts& accounts) {
 }
 
 void Recorder::check_push(double time, double force) const {
-  if (force >= -audit_.tolerated_energy() * largest_force_) return;
+  if (force >= -audit_.tolerated_energy() * result_.max_force) return;
   // Where the run has hardly begun, a pull too weak to have an impulse is rounding.
   if (-force * time <= audit_.tolerated_impulse()) return;
   audit_.fail(time, OutcomeKind::inaccurate,
-              fmt::format("within a contact the force is {:.3g} N: the bodies would pull at each "
-                          "other",
-                          force));
+              "within a contact the force is {:.3g} N: the bodies would pull at each other", force);
 }
 
 void Recorder::add_section_rows(double time, const State& y, Accounts& accounts) {

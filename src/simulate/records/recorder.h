@@ -107,7 +107,6 @@ class Recorder final : public RunObserver {
   bool in_contact_ = false;
   double velocity_at_start_ = 0.0;
   double beam_impulse_at_start_ = 0.0;
-  double largest_force_ = 0.0;  // of all contacts so far, N
   State state_;
   SectionCorrection correction_;             // of a state within a step
   std::vector<std::size_t> sections_;        // whose bending is kept

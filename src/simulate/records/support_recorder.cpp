@@ -1,7 +1,6 @@
 #include "simulate/records/support_recorder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "numerics/hermite.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "integrate/sundials.h"
 #include "model/mesh/modal_mesh.h"
 #include "model/mesh/modes.h"
 #include "numerics/mass_solver.h"
@@ -196,10 +195,9 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
 }
 
 // The rotary inertia of a beam much thicker than long outweighs its mass by more than 16 digits.
-std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const BeamMesh& mesh) {
-  if (std::unique_ptr<MassSolver> own = mesh.make_mass_solver()) return own;
+BandedSolver make_mass_solver(const Problem& problem, const BeamMesh& mesh) {
   try {
-    return std::make_unique<BandedSolver>(mesh.mass());
+    return BandedSolver(mesh.mass());
   } catch (const std::exception&) {
     refuse("beam.thickness",
            "is {:g} m, with which the mass matrix of a beam of {:g} m is not positive definite; "
@@ -240,7 +238,7 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
       problem.beam.has_natural_modes() && in_modes(options, *mesh, problem.beam.damping)) {
     mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
   }
-  std::unique_ptr<MassSolver> solver = make_mass_solver(problem, *mesh);
+  BandedSolver solver = make_mass_solver(problem, *mesh);
   Loads loads(*mesh, problem.beam, problem.gravity);
   std::optional<Tension> tension;
   if (problem.beam.stretches()) tension = make_tension(*mesh, problem.beam, sections.can_yield());

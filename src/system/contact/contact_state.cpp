@@ -1,9 +1,7 @@
 #include "system/contact/contact_state.h"
 
-#include <algorithm>
 #include <cassert>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 
 #include "model/contact/power_contact.h"
@@ -40,14 +38,11 @@ std::span<const EventFunction> ContactState::event_functions() const {
 }
 
 double ContactState::force(double indentation) const {
-  if (evaluation_ == Evaluation::switching) return law_->contact_force(history_, indentation);
-  return law_->branch_force(branch_, history_, indentation);
+  return law_->branch_force(branch_at(indentation), history_, indentation);
 }
 
 double ContactState::slope(double indentation) const {
-  const ContactBranch branch =
-      evaluation_ == Evaluation::switching ? law_->branch(history_, indentation) : branch_;
-  return law_->branch_slope(branch, history_, indentation);
+  return law_->branch_slope(branch_at(indentation), history_, indentation);
 }
 
 ContactState::Energies ContactState::energies(double indentation) const {
@@ -70,18 +65,10 @@ EventValue ContactState::event_function(const EventFunction& function, double in
       return {residual_indentation() - indentation, -rate};
     case EventKind::contact_yields:
       return {indentation - law_->yield_threshold(history_), rate};
-    case EventKind::contact_unloads:
-    case EventKind::section_reverses:
-    case EventKind::support_touches:
-    case EventKind::support_lifts:
-      break;
+    default:
+      assert(false && "this event has no function of the indentation");
+      return {};
   }
-  assert(false && "this event has no function of the indentation");
-  return {};
-}
-
-void ContactState::commit(double indentation) {
-  if (loads()) history_ = ContactLaw::commit(history_, indentation);
 }
 
 void ContactState::pass(const EventFunction& event, double indentation) {
@@ -100,11 +87,8 @@ void ContactState::pass(const EventFunction& event, double indentation) {
     case EventKind::contact_ends:
       branch_ = ContactBranch::separated;
       break;
-    case EventKind::section_reverses:
-    case EventKind::support_touches:
-    case EventKind::support_lifts:
+    default:
       assert(false && "sections pass their events in SectionField, supports as contacts");
-      break;
   }
 }
 

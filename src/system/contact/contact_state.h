@@ -102,7 +102,9 @@ class ContactState {
     branch_ = branch;
     history_ = history;
   }
-  void commit(double indentation);
+  void commit(double indentation) {
+    if (loads()) history_ = ContactLaw::commit(history_, indentation);
+  }
   void pass(const EventFunction& event, double indentation);
   /// A contact begins at a rate (m/s). Hunt and Crossley's coefficient of restitution depends on
   /// chi times that rate alone, and stays what it is from a hundredth of restitution_velocity on: a
@@ -115,6 +117,9 @@ class ContactState {
 
  private:
   static constexpr double slowest_damped_touch = 0.01;
+  ContactBranch branch_at(double indentation) const {
+    return evaluation_ == Evaluation::switching ? law_->branch(history_, indentation) : branch_;
+  }
 
   std::shared_ptr<const ContactLaw> law_;
   double damping_;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -126,12 +125,7 @@ bool FreeFlight::may_last(double time) {
   }
   for (std::size_t i = 0; i < n_; ++i) force_[i] = y1_[i] + time * y1_[n_ + 1 + i];
   beam_.mesh().curvatures(force_, curvatures_);
-  const auto low = beam_.sections().window_low();
-  const auto high = beam_.sections().window_high();
-  for (std::size_t i = 0; i < curvatures_.size(); ++i) {
-    if (curvatures_[i] < low[i] || curvatures_[i] > high[i]) return false;
-  }
-  return true;
+  return !beam_.sections().any_outside(curvatures_);
 }
 
 void FreeFlight::to_modes(std::span<const double> f, std::vector<double>& modal) const {

@@ -21,16 +21,12 @@ constexpr double rounding = 1e-5;
 }  // namespace
 
 NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, double first_period)
-    : n_(beam.mesh().n_unknowns()),
-      is_damped_(beam.depends_on_velocity()),
-      rigid_motion_decays_(beam.damping().mass > 0.0),
-      accounts_(beam) {
+    : n_(beam.mesh().n_unknowns()), accounts_(beam) {
   const BeamMesh& mesh = beam.mesh();
   const SectionField& sections = beam.sections();
   const auto motion = slow_motion(mesh, sections.stiffness(), first_period,
                                   sections.can_yield() ? most_rigid : n_followed);
-  can_prove_ = motion.has_value();
-  if (!can_prove_) return;
+  if (!motion) return;
   compliance_ = compliance_of_rest_ = mesh.struck_point()(motion->response);
   std::vector<double> frequencies{0.0}, shares{1.0};
   for (std::size_t k = 0; k < motion->size(); ++k) {
@@ -98,8 +94,8 @@ bool NoMoreContact::allow_loads(const StruckBeam& beam) {
 }
 
 bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
-  if (!can_prove_ || !beam.supports().empty() || beam.contact().is_closed() || !allow_loads(beam))
-    return false;
+  if (modes_.empty() || !beam.supports().empty() || beam.contact().is_closed()) return false;
+  if (!allow_loads(beam)) return false;
   std::vector<double> w(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n_));
   const std::span<const double> v{y.data() + n_ + 1, n_};
   const Energies energies = accounts_.energies(y);
@@ -127,7 +123,7 @@ bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
     }
   }
   if (!(rates[0] <= 0.0)) return false;
-  if (rigid_motion_decays_ && y.back() > 0.0) return false;
+  if (beam.damping().mass > 0.0 && y.back() > 0.0) return false;  // the rigid motion decays
   energy = std::max(energy, 0.0);
 
   double plastic = 0.0;
@@ -142,7 +138,7 @@ bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
                                                           : std::sqrt(2.0 * compliance_ * energy);
   const double residual = beam.contact().residual_indentation();
   if (z[0] - plastic + (1.0 + rounding) * bound < residual) return true;
-  if (is_damped_ || !horizon_ || !(rates[0] < 0.0)) return false;
+  if (beam.depends_on_velocity() || !horizon_ || !(rates[0] < 0.0)) return false;
   const double of_rest =
       std::sqrt(2.0 * compliance_of_rest_ * std::max(energy - energy_of_modes, rounding * energy));
   return stays_below(residual - of_rest, z, rates);

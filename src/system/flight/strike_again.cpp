@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/mesh/modes.h"
 #include "numerics/bracketed_root.h"
 #include "numerics/lanes.h"
 #include "system/readings/accounts.h"
@@ -150,9 +151,7 @@ void StruckBeam::come_to_rest(std::span<double> w, double first_frequency) {
   const Evaluation as_set = section_evaluation_;
   section_evaluation_ = Evaluation::smooth;
   sections_.stop_flow();
-  BandedMatrix near(n_, std::max(mesh_->mass().half_bandwidth(), mesh_->stiffness_bandwidth()));
-  std::ranges::fill(moments_, sections_.stiffness());
-  mesh_->add_stiffness(moments_, near);
+  BandedMatrix near = elastic_stiffness(*mesh_, sections_.stiffness());
   near.add(share_of_mass * first_frequency * first_frequency, mesh_->mass());
   const std::optional<BandedMatrix> factor = near.cholesky_factor();
   std::vector<double> constant(n_), residual(n_), solved, direction(n_, 0.0), change(n_);

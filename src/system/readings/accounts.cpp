@@ -1,7 +1,5 @@
 #include "system/readings/accounts.h"
 
-#include <cmath>
-
 #include "numerics/lanes.h"
 
 namespace subimpact {

@@ -249,9 +249,7 @@ PermanentSet::PermanentSet(const BeamMesh& mesh, double length, double shear_fle
 }
 
 double PermanentSet::at(double x) const {
-  const auto after =
-      std::lower_bound(sections_.begin(), sections_.end(), x,
-                       [](const PlacedSection& s, double at) { return s.position < at; });
+  const auto after = std::ranges::lower_bound(sections_, x, {}, &PlacedSection::position);
   const auto n = static_cast<std::size_t>(after - sections_.begin());
   const double integral = n > 0 ? rotations_[n - 1] * x - moments_[n - 1] : 0.0;
   return integral + x * (c1_ + x * (c2_ + x * c3_));

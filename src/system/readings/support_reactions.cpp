@@ -5,6 +5,13 @@
 #include "system/readings/beam_field.h"
 
 namespace subimpact {
+namespace {
+
+double sum(std::span<const double> coefficients, std::span<const double> values) {
+  return std::inner_product(coefficients.begin(), coefficients.end(), values.begin(), 0.0);
+}
+
+}  // namespace
 
 SupportReactions::SupportReactions(const StruckBeam& beam, double length, double struck_at)
     : beam_(beam), length_(length), struck_at_(struck_at) {
@@ -47,7 +54,10 @@ SupportReactions::Eliminated SupportReactions::eliminated(
     tension->form().multiply(g, result.of_tension);
   }
   result.of_moments.resize(mesh.n_sections());
-  mesh.moment_weights(g, result.of_moments);
+  mesh.curvatures(g, result.of_moments);
+  for (std::size_t j = 0; j < mesh.n_sections(); ++j) {
+    result.of_moments[j] *= -mesh.section_weights()[j];
+  }
   if (mesh.shears()) {
     result.of_unknowns.resize(g.size());
     mesh.add_shear_forces(g, result.of_unknowns);
@@ -101,9 +111,6 @@ void SupportReactions::add_damping(Eliminated& to) const {
 
 double SupportReactions::value(const Eliminated& of, double t, const State& y,
                                std::span<const double> moments) const {
-  const auto sum = [](const std::vector<double>& coefficients, std::span<const double> values) {
-    return std::inner_product(coefficients.begin(), coefficients.end(), values.begin(), 0.0);
-  };
   double value = beam_.contact_force(y) * of.of_force;
   value += sum(of.of_moments, moments);
   if (!of.of_loads.empty()) value += beam_.loads().potential(of.of_loads, t);
@@ -116,10 +123,6 @@ double SupportReactions::value(const Eliminated& of, double t, const State& y,
     value += of.of_supports[j] * beam_.support_force(j, y);
   }
   return value + sum(of.of_velocities, beam_.beam_velocities(y));
-}
-
-bool SupportReactions::is_at(const LiftingSupport& support, std::size_t end) const {
-  return support.position == (end == 0 || beam_.mesh().symmetric() ? 0.0 : length_);
 }
 
 SupportReactions::Forces SupportReactions::on_supports(const State& y) const {
@@ -140,12 +143,9 @@ SupportReactions::Forces SupportReactions::at(double t, const State& y, Accounts
   const double force = beam_.contact_force(y);
   // The resultant of loads, springs and bedding.
   const std::span<const double> unknowns = beam_.beam_positions(y);
-  const auto of_ground = [&](std::span<const double> functional) {
-    return std::inner_product(functional.begin(), functional.end(), unknowns.begin(), 0.0);
-  };
   const auto [load, load_moment] = beam_.loads().resultant(t);
-  double others = load - of_ground(beam_.mesh().ground_force());
-  double other_moments = load_moment - of_ground(beam_.mesh().ground_moment());
+  double others = load - sum(beam_.mesh().ground_force(), unknowns);
+  double other_moments = load_moment - sum(beam_.mesh().ground_moment(), unknowns);
   for (std::size_t j = 0; j < beam_.supports().size(); ++j) {
     const LiftingSupport& support = beam_.supports()[j];
     const double push = support.sense * support.copies * beam_.support_force(j, y);
@@ -154,14 +154,14 @@ SupportReactions::Forces SupportReactions::at(double t, const State& y, Accounts
   }
   std::span<const double> moments;
   if (!in_modes()) moments = accounts.bending(y).moments;
-  const double sum = value(momentum_, t, y, moments) - force - others;
-  if (beam_.mesh().symmetric()) return {0.5 * sum, 0.5 * sum};
-  if (!held_[1]) return {sum, lies_on[1]};
-  if (!held_[0]) return {lies_on[0], sum};
+  const double both = value(momentum_, t, y, moments) - force - others;
+  if (beam_.mesh().symmetric()) return {0.5 * both, 0.5 * both};
+  if (!held_[1]) return {both, lies_on[1]};
+  if (!held_[0]) return {lies_on[0], both};
   if (!moment_) return {};
   const double moment = value(*moment_, t, y, moments) - force * struck_at_ - other_moments;
   const double last = moment / length_;
-  return {sum - last, last};
+  return {both - last, last};
 }
 
 }  // namespace subimpact

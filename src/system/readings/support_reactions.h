@@ -47,7 +47,9 @@ class SupportReactions {
   void add_end_moment(double sign, double x, bool first, Eliminated& to) const;
   void add_damping(Eliminated& to) const;
   bool is_held() const { return held_[0] || held_[1]; }
-  bool is_at(const LiftingSupport& support, std::size_t end) const;
+  bool is_at(const LiftingSupport& support, std::size_t end) const {
+    return support.position == (end == 0 || beam_.mesh().symmetric() ? 0.0 : length_);
+  }
   // Of supports that lift, at x = 0 and x = l.
   Forces on_supports(const State& y) const;
   bool in_modes() const { return !beam_.modal_stiffness().empty(); }

@@ -1,6 +1,5 @@
 #include "system/section/section_correction.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -92,10 +91,6 @@ void SectionCorrector::correct(const StepEnds& step, SectionCorrection& correcti
       coupling.time > step.t0) {
     correction.valid_until = cut_at(coupling.time, step);
   }
-}
-
-double SectionCorrector::cut_at(double time, const StepEnds& step) const {
-  return std::min(std::max(time, step.t0 + shortest_step_), step.t1);
 }
 
 void SectionCorrector::read_response(const StepEnds& step, SectionCorrection& correction) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -22,11 +23,8 @@ struct SectionCorrection {
 };
 
 /// Defect correction of a step for section events: sections that leave, within the step, the smooth
-/// pieces of their laws.
-///
-/// The changes are series in the moments of the defects, continued until the next term is below the
-/// tolerance (docs/theory.md, "Section events"). The first terms come without mass solves
-/// (SectionInfluence); each further pair costs two. The beam is not changed.
+/// pieces of their laws (docs/theory/events.md, "Section events"). The first terms come without
+/// mass solves (SectionInfluence); each further pair costs two. The beam is not changed.
 class SectionCorrector {
  public:
   /// `beam` must outlive this. `tolerance`: how far velocities at the step's end may be off by the
@@ -41,7 +39,9 @@ class SectionCorrector {
 
  private:
   // The end of a step that is to be cut at a time: no sooner than the shortest step.
-  double cut_at(double time, const StepEnds& step) const;
+  double cut_at(double time, const StepEnds& step) const {
+    return std::min(std::max(time, step.t0 + shortest_step_), step.t1);
+  }
   void read_loads(double t, const State& y, const SectionMotion& motion, SectionLoads& loads);
   void read_response(const StepEnds& step, SectionCorrection& correction);
   // Tangents of the smooth pieces, taken at the step's end, times changes of curvature.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "numerics/bracketed_root.h"
@@ -17,7 +18,7 @@ constexpr double negligible = 0.01 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-SectionInfluence::SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver)
+SectionInfluence::SectionInfluence(const BeamMesh& mesh, const BandedSolver& mass_solver)
     : mesh_(mesh), mass_solver_(mass_solver), slot_(mesh.n_sections(), -1) {}
 
 SectionInfluence::Stretch::Stretch(const std::vector<double>& whole) {
@@ -238,7 +239,7 @@ void SectionEvents::consider(std::size_t i, const SectionMotion& start, const Se
   } else if (k1 >= low && k1 <= high) {
     if (!back && r0 * r1 >= 0.0) return;  // it stayed between its ends
     if (back) {
-      const double farthest = path(path.first_extremum());
+      const double farthest = path(path.extrema().first);
       if (farthest >= low && farthest <= high) return;
     }
   } else {
@@ -259,8 +260,7 @@ void SectionEvents::find(const End& start, const End& end, double t0, double t1,
   for (const std::size_t section : candidates_) {
     if (auto candidate = trace(section, start, end)) traced_.push_back(*candidate);
   }
-  std::sort(traced_.begin(), traced_.end(),
-            [](const Candidate& a, const Candidate& b) { return a.in.leaves < b.in.leaves; });
+  std::ranges::sort(traced_, {}, [](const Candidate& one) { return one.in.leaves; });
   for (const Candidate& candidate : traced_) follow(candidate, events);
   if (!events.empty()) find_reversals_by_others(start, end, events);
 }
@@ -273,7 +273,7 @@ void SectionEvents::find_reversals_by_others(const End& start, const End& end,
     const double sense = flow.branch.sense;
     const double slope = length_ * end.motion.rates[i];
     if (sense * slope <= 0.0) continue;
-    if (std::find(candidates_.begin(), candidates_.end(), i) != candidates_.end()) continue;
+    if (std::ranges::count(candidates_, i) > 0) continue;
     path_.reset({{}, {}, 1.0});
     disturb(i, events);
     if (sense * (slope + path_.change_by_others(1.0).slope) >= 0.0) continue;
@@ -342,9 +342,7 @@ void SectionEvents::disturb(std::size_t section, const std::vector<SectionEvent>
   }
   if (disturbances_.size() > most_disturbances) {
     const auto kept = disturbances_.begin() + most_disturbances;
-    std::nth_element(
-        disturbances_.begin(), kept, disturbances_.end(),
-        [](const Disturbance& a, const Disturbance& b) { return a.strength > b.strength; });
+    std::ranges::nth_element(disturbances_, kept, std::greater(), &Disturbance::strength);
     disturbances_.erase(kept, disturbances_.end());
   }
   for (const Disturbance& by : disturbances_) path_.add_other(by.response);

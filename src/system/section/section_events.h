@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -21,7 +20,7 @@ namespace subimpact {
 /// Its first use computes it, with one mass solve.
 class SectionInfluence {
  public:
-  SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver);
+  SectionInfluence(const BeamMesh& mesh, const BandedSolver& mass_solver);
 
   /// kappa_i'' of one section, given W_j M_j of all (N m2), F and f_s (N; empty: none); 1/(m s2).
   double curvature_acceleration(std::size_t section, const std::vector<double>& weighted_moments,
@@ -48,7 +47,7 @@ class SectionInfluence {
   const Influence& of(std::size_t section);
 
   const BeamMesh& mesh_;
-  const MassSolver& mass_solver_;
+  const BandedSolver& mass_solver_;
   std::vector<int> slot_;  // index into known_, -1: not computed yet
   std::vector<Influence> known_;
 };

@@ -13,10 +13,10 @@ PowerContact paper_law() { return law_of(paper_scene()); }
 
 TEST(ContactLaw, HasTheNumbersOfThePapersExample) {
   const PowerContact law = paper_law();
-  EXPECT_NEAR(law.stiffness(), 2.948976e10, 0.5e4);
+  EXPECT_NEAR(law.scales().stiffness, 2.948976e10, 0.5e4);
   EXPECT_NEAR(law.yield_indentation(), 1.56337e-5, 0.5e-10);
   EXPECT_NEAR(law.contact_force({}, law.yield_indentation()), 1822.90, 0.005);
-  EXPECT_EQ(law.exponent(), 1.5);
+  EXPECT_EQ(law.scales().exponent, 1.5);
 }
 
 TEST(ContactLaw, OfABeamThatNeverYieldsIsAnElasticFoundation) {
@@ -26,7 +26,7 @@ TEST(ContactLaw, OfABeamThatNeverYieldsIsAnElasticFoundation) {
   const ContactHistory deep{1e-3};
   EXPECT_EQ(law.residual_indentation(deep), 0.0);
   EXPECT_EQ(law.branch(deep, 2e-3), ContactBranch::elastic);
-  EXPECT_DOUBLE_EQ(law.contact_force(deep, 4e-4), law.stiffness() * 8e-6);
+  EXPECT_DOUBLE_EQ(law.contact_force(deep, 4e-4), law.scales().stiffness * 8e-6);
   EXPECT_EQ(law.dissipated_energy(deep), 0.0);
 }
 
@@ -50,11 +50,11 @@ TEST(ContactLaw, OfASceneIsHertzOrLinearWhereAsked) {
   scene.contact.kind = ContactKind::hertz;
   EXPECT_THROW(law_of(scene), std::invalid_argument);
   scene.contact.stiffness = 1.5e10;
-  EXPECT_EQ(law_of(scene).exponent(), 1.5);
-  EXPECT_EQ(law_of(scene).stiffness(), 1.5e10);
+  EXPECT_EQ(law_of(scene).scales().exponent, 1.5);
+  EXPECT_EQ(law_of(scene).scales().stiffness, 1.5e10);
   EXPECT_EQ(law_of(scene).yield_indentation(), infinity);
   scene.contact.kind = ContactKind::linear;
-  EXPECT_EQ(law_of(scene).exponent(), 1.0);
+  EXPECT_EQ(law_of(scene).scales().exponent, 1.0);
   EXPECT_DOUBLE_EQ(law_of(scene).contact_force({}, 2e-5), 3e5);
   EXPECT_DOUBLE_EQ(law_of(scene).recoverable_energy({}, 2e-5), 3.0);
 }
@@ -65,7 +65,7 @@ TEST(ContactLaw, OfASphereIsHertzsWithBothBodiesElastic) {
   scene.beam.youngs_modulus = 2.157463e11;
   scene.striker.nose_radius = 0.01;
   scene.contact = {ContactKind::hertz, {}, 2.157463e11, 0.3, 0.3};
-  EXPECT_NEAR(law_of(scene).stiffness(), 1.580559e10, 0.5e4);
+  EXPECT_NEAR(law_of(scene).scales().stiffness, 1.580559e10, 0.5e4);
   // A rigid ball is twice as stiff as one of the beam's material; so is a rigid beam.
   const auto stiffness = [](double radius, double modulus_1, double modulus_2) {
     return hertz_stiffness({radius, radius}, contact_compliance(modulus_1, 0.3, modulus_2, 0.3));
@@ -93,8 +93,8 @@ TEST(ContactLaw, DissipatesResidualToThreeHalvesTimesStiffnessAndYieldIndentatio
   for (const double x : {1.0, 1.1, 2.0, 5.0, 20.0}) {
     const ContactHistory history{x * unit};
     EXPECT_NEAR(law.dissipated_energy(history),
-                law.stiffness() * std::pow((x - 1.0) * unit, 1.5) * unit,
-                1e-13 * law.stiffness() * std::pow(unit, 2.5));
+                law.scales().stiffness * std::pow((x - 1.0) * unit, 1.5) * unit,
+                1e-13 * law.scales().stiffness * std::pow(unit, 2.5));
   }
 }
 

@@ -20,21 +20,22 @@ double summed_moment(int layers, double x) {
 
 TEST(Fibres, ContinuousOnesHaveTheExactVirginCurve) {
   const Fibres fibres = Fibres::continuous();
-  for (double x = 0.0; x <= 1.0; x += 0.0625) EXPECT_DOUBLE_EQ(fibres.moment(x), x);
+  for (double x = 0.0; x <= 1.0; x += 0.0625) EXPECT_DOUBLE_EQ(fibres.response(x).moment, x);
   for (double x = 1.0; x < 40.0; x *= 1.1) {
-    EXPECT_NEAR(fibres.moment(x), 1.5 - 0.5 / (x * x), 1e-15 * 4.0);
+    EXPECT_NEAR(fibres.response(x).moment, 1.5 - 0.5 / (x * x), 1e-15 * 4.0);
   }
   const struct {
     double x, m;
   } published[] = {{1.5, 1.277778}, {2.0, 1.375}, {3.0, 1.444444}, {5.0, 1.48}, {10.0, 1.495}};
-  for (const auto& [x, m] : published) EXPECT_NEAR(fibres.moment(x), m, 0.5e-6);
+  for (const auto& [x, m] : published) EXPECT_NEAR(fibres.response(x).moment, m, 0.5e-6);
 }
 
 TEST(Fibres, LayersAreTheSumOverLayers) {
   for (const int layers : {2, 4, 6, 10, 40, 160}) {
     const Fibres fibres = Fibres::layered(layers);
     for (double x = -30.0; x < 30.0; x += 0.0173) {
-      ASSERT_NEAR(fibres.moment(x), summed_moment(layers, x), 1e-14) << layers << ", " << x;
+      ASSERT_NEAR(fibres.response(x).moment, summed_moment(layers, x), 1e-14)
+          << layers << ", " << x;
     }
   }
 }
@@ -44,7 +45,7 @@ TEST(Fibres, LayersYieldFirstWhereTheOutermostMidLayerDoes) {
     const Fibres fibres = Fibres::layered(layers);
     const double first = layers / (layers - 1.0);
     EXPECT_NEAR(fibres.first_yield(), first, 1e-15 * 4.0);
-    EXPECT_NEAR(fibres.moment(first), fibres.slope() * first, 1e-14);
+    EXPECT_NEAR(fibres.response(first).moment, fibres.slope() * first, 1e-14);
     const double zeta = 1.0 / first;
     EXPECT_DOUBLE_EQ(fibres.tangent(0.999 * first), fibres.slope());
     EXPECT_NEAR(fibres.tangent(1.001 * first), fibres.slope() - 6.0 * zeta * zeta / layers, 1e-14);
@@ -54,16 +55,18 @@ TEST(Fibres, LayersYieldFirstWhereTheOutermostMidLayerDoes) {
 
 // Tangent and moment as the derivatives of moment and work, by differences over 2 h.
 void expect_derivatives(const Fibres& fibres, double x, double h) {
-  EXPECT_NEAR((fibres.moment(x + h) - fibres.moment(x - h)) / (2.0 * h), fibres.tangent(x), 1e-8);
-  EXPECT_NEAR((fibres.work(x + h) - fibres.work(x - h)) / (2.0 * h), fibres.moment(x), 1e-8);
+  EXPECT_NEAR((fibres.response(x + h).moment - fibres.response(x - h).moment) / (2.0 * h),
+              fibres.tangent(x), 1e-8);
+  EXPECT_NEAR((fibres.response(x + h).work - fibres.response(x - h).work) / (2.0 * h),
+              fibres.response(x).moment, 1e-8);
 }
 
 TEST(Fibres, TangentAndMomentAreTheDerivativesOfMomentAndWork) {
   for (const Fibres& fibres : {Fibres::continuous(), Fibres::layered(40)}) {
     // Steps that avoid the kinks of the layers, at x = 40/(2k - 1).
     for (double x = -9.013; x < 9.0; x += 0.1171) expect_derivatives(fibres, x, 1e-6);
-    EXPECT_EQ(fibres.work(0.0), 0.0);
-    EXPECT_DOUBLE_EQ(fibres.work(-3.0), fibres.work(3.0));
+    EXPECT_EQ(fibres.response(0.0).work, 0.0);
+    EXPECT_DOUBLE_EQ(fibres.response(-3.0).work, fibres.response(3.0).work);
   }
 }
 
@@ -173,9 +176,9 @@ TEST(FibreStrips, ThatFillTheRectangleAreTheContinuousSection) {
   const Fibres strips = Fibres::strips({{0.0, 0.4}, {0.4, 0.7}, {0.7, 1.0}}, "rectangle");
   EXPECT_EQ(strips.first_yield(), 1.0);
   for (const double x : {0.5, 1.0, 1.5, 3.0, 30.0}) {
-    EXPECT_NEAR(strips.moment(x), exact.moment(x), 1e-15 * 4.0);
+    EXPECT_NEAR(strips.response(x).moment, exact.response(x).moment, 1e-15 * 4.0);
     EXPECT_NEAR(strips.tangent(x), exact.tangent(x), 1e-15 * 4.0);
-    EXPECT_NEAR(strips.work(x), exact.work(x), 1e-15 * 40.0);
+    EXPECT_NEAR(strips.response(x).work, exact.response(x).work, 1e-15 * 40.0);
   }
 }
 

@@ -71,9 +71,11 @@ class ContactLaw {
   /// Force (N) of unloading and reloading, at lambda_r < lambda <= lambda_y.
   virtual double force(ContactHistory history, double indentation) const = 0;
   /// lambda_r, m: where the force ends on unloading and begins on reloading. By default 0.
-  virtual double residual_indentation(ContactHistory history) const;
+  virtual double residual_indentation(ContactHistory /*history*/) const { return 0.0; }
   /// lambda_y, m: the indentation above which the contact yields (further). By default infinite.
-  virtual double yield_threshold(ContactHistory history) const;
+  virtual double yield_threshold(ContactHistory /*history*/) const {
+    return std::numeric_limits<double>::infinity();
+  }
 
   /// By default a power through the forces at 1 and 2 um.
   virtual ContactScales scales() const;

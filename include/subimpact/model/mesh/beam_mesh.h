@@ -47,7 +47,6 @@ struct SparseFunctional {
 };
 
 class BeamMesh;
-class MassSolver;
 
 /// All natural modes of a mesh, elastic: K phi = omega^2 Mass phi, phi^T Mass phi = 1.
 struct NaturalModes {
@@ -189,11 +188,6 @@ class BeamMesh {
     return 2.0 * static_cast<double>(n_unknowns()) * static_cast<double>(n_unknowns());
   }
 
-  /// Coefficients of the moments M in the work -g^T B^T W M of displacements g, m.
-  virtual void moment_weights(std::span<const double> unknowns, std::span<double> weights) const;
-  /// The solver of the mass matrix, if mass() holds only a part of it; otherwise null.
-  virtual std::unique_ptr<MassSolver> make_mass_solver() const;
-
   /// Whether explicit methods should integrate an elastic beam in its modes, because the modes are
   /// cheap and the band is wide; the motion is the same.
   virtual bool prefers_modes() const { return false; }
@@ -206,6 +200,8 @@ class BeamMesh {
   BeamMesh(std::size_t n_unknowns, std::size_t half_bandwidth, bool symmetric)
       : mass_(n_unknowns, half_bandwidth), symmetric_(symmetric) {}
 
+  /// "501 cells, one half by symmetry".
+  std::string described(std::size_t n, const char* parts) const;
   /// 2 where the mirrored half is folded in.
   double copies() const { return symmetric_ ? 2.0 : 1.0; }
   /// Stores the row of B of the next section; to be called section by section.

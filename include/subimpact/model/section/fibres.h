@@ -25,28 +25,18 @@ struct FibreStrip {
 /// sections of a case file use the same interface: `continuous`, the exact section, and `layered`,
 /// p layers of equal thickness per half whose stress is taken at mid-layer.
 ///
-/// Model: every fibre is linear elastic-perfectly plastic, strains are linear over the thickness.
-/// With the curvature x = kappa/kappa_y and the moment m = M/M_y in units of the beam of one
-/// material, kappa_y = 2 Y/(E h) and M_y = 2 Y I/h, a fibre at the distance z from the neutral
-/// axis, of modulus E_z and yield stress Y_z, yields at x = 1/zeta with
+/// Model (docs/theory/bending.md): every fibre is linear elastic-perfectly plastic, strains are
+/// linear over the thickness. With the curvature x = kappa/kappa_y and the moment m = M/M_y in
+/// units of the beam of one material, kappa_y = 2 Y/(E h) and M_y = 2 Y I/h, a fibre at the
+/// distance z from the neutral axis, of modulus E_z and yield stress Y_z, yields at x = 1/zeta with
 ///
 ///     zeta = (2 z/h) (E_z/E) (Y/Y_z),   weight  w dzeta = (h^2 dA/(6 I)) (E/E_z) (Y_z/Y)^2,
 /// dA the area on one side of the axis (zeta = 2 z/h and w = 1 for the rectangle). The law needs
 /// only the cumulative moments of the distribution, S_i(zeta) = integral of w zeta^i from 0 to
-/// zeta. The virgin curve is
-///
-///     m(x) = 3 [x S_2(z_e) + S_1 - S_1(z_e)],  z_e = 1/x
-///
-/// (fibres below z_e are elastic, the others carry their yield stress). Unloading and reloading
-/// follow from the virgin curve by Masing's rules, which are exact for such fibres. The rectangle
-/// has m = x up to 1 and 1.5 - 0.5/x^2 above. Layers give the slope 1 - 1/(2p)^2 and a first yield
-/// at x = 2p/(2p - 1): properties of that law, not errors of this code. Linear kinematic hardening
-/// with h = E_t/E puts an elastic fibre in parallel with each fibre, m = (1 - h) f(x) + h x: one
-/// fibre at zeta = 0 with h S_2, which never yields, and the others with weights times 1 - h;
-/// Masing's rules hold. The elastic energy is then the energy that unloading or reversed flow can
-/// return, including that of the elastic fibre. Mass and rotary inertia remain those of Beam:
-/// choose its density so that the mass per length is that of the section. Shear deformation is left
-/// out, so a core that is soft in shear is not covered.
+/// zeta; unloading and reloading follow by Masing's rules. Hardening is one fibre at zeta = 0 with
+/// h S_2, which never yields, and the others with weights times 1 - h. Mass and rotary inertia
+/// remain those of Beam: choose its density so that the mass per length is that of the section.
+/// Shear deformation is left out, so a core that is soft in shear is not covered.
 class Fibres {
  public:
   struct Moments {
@@ -84,13 +74,12 @@ class Fibres {
   double outer_yield() const { return outer_yield_; }
   double outer_modulus() const { return outer_modulus_; }
 
-  double moment(double x) const;   ///< virgin curve, odd in x
-  double tangent(double x) const;  ///< dm/dx of the virgin curve
-  double work(double x) const;     ///< integral of the virgin curve from 0 to x
+  /// The virgin curve m(x), odd in x, and its integral from 0 to x.
   struct Response {
     double moment, work;
   };
-  Response response(double x) const;  ///< both at once
+  Response response(double x) const;
+  double tangent(double x) const;  ///< dm/dx of the virgin curve
 
   /// Elastic energy, in units of M_y kappa_y per length, of the fibres from zeta `a` to `b` whose
   /// stress is (constant + slope * zeta) times their yield stress: 3/2 the integral of its square.

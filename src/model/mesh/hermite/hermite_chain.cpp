@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/lanes.h"
-
 namespace subimpact::chain {
 
 // Written so that long waves, and those near the ends of the optical branch, keep their digits.

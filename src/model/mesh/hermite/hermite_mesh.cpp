@@ -9,7 +9,6 @@
 #include "model/mesh/modes.h"
 #include "numerics/bracketed_root.h"
 #include "numerics/dense.h"
-#include "numerics/gauss.h"
 
 namespace subimpact {
 
@@ -257,16 +256,9 @@ std::vector<BeamMesh::Slope> HermiteMesh::slopes() const {
 }
 
 double HermiteMesh::highest_frequency(double bending_stiffness) const {
-  BandedMatrix stiffness(n_unknowns(), 3), opposite = stiffness;
-  add_stiffness(std::vector<double>(n_sections(), bending_stiffness), stiffness);
-  opposite.add(-1.0, stiffness);
-  // s lies above the spectrum if s Mass - K is positive definite. No assembly exceeds the highest
-  // frequency of its elements by themselves (Irons and Treharne).
-  const auto within_spectrum = [&](double s) {
-    BandedMatrix shifted = opposite;
-    shifted.add(s, mass_);
-    return !shifted.cholesky_factor();
-  };
+  const auto is_above = above_spectrum(*this, bending_stiffness);
+  const auto within_spectrum = [&](double s) { return !is_above(s); };
+  // No assembly exceeds the highest frequency of its elements by themselves (Irons and Treharne).
   double bound = 0.0;
   for (const std::size_t e : {std::size_t{0}, nodes_.n_elements() - 1}) {
     const auto mass = element(e).mass(mass_per_length_, rotary_inertia_);
@@ -299,7 +291,5 @@ NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
   normalise(*modes, mass_);
   return *std::move(modes);
 }
-
-std::string HermiteMesh::description() const { return described("Hermite elements of 2 sections"); }
 
 }  // namespace subimpact

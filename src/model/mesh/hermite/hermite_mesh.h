@@ -11,12 +11,8 @@ namespace subimpact {
 
 /// One cubic Hermite element of length a with the unknowns w_0, h t_0, w_1, h t_1, all in m: the
 /// displacements and slopes t = w' at its nodes, with h, the slope unit, a length that a mesh
-/// chooses. The curvature is linear,
-///
-///     kappa = (t_1 - t_0)/a + eta [6 (w_0 - w_1)/a^2 + 3 (t_0 + t_1)/a],  eta in [-1, 1].
-///
-/// Its sections are two Gauss points, each for half the length, which integrate the elastic
-/// stiffness exactly.
+/// chooses. Its sections are two Gauss points, each for half the length, which integrate the
+/// elastic stiffness exactly: the curvature is linear in eta, from -1 to 1 along the element.
 struct HermiteElement {
   using Coefficients = std::array<double, 4>;  ///< of the four unknowns
   using Matrix = std::array<Coefficients, 4>;
@@ -93,7 +89,9 @@ class HermiteMesh final : public ElementMesh {
   bool has_closed_modes() const override;
   /// True if the modes have the closed form, up to 2000 unknowns.
   bool prefers_modes() const override;
-  std::string description() const override;
+  std::string description() const override {
+    return described(nodes_.n_elements_whole(), "Hermite elements of 2 sections");
+  }
 
  private:
   // Equal elements in a row with all their unknowns, in order.

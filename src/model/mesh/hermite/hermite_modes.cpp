@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "model/mesh/hermite/hermite_chain.h"
@@ -216,11 +215,7 @@ std::optional<NaturalModes> hermite_chain_modes(const HermiteChain& chain) {
   const std::size_t n = shapes.n_unknowns();
   if (modes.size() + rigid.size() != n) return std::nullopt;
 
-  std::vector<std::size_t> order(modes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-    return modes[i].waves.lambda < modes[j].waves.lambda;
-  });
+  std::ranges::sort(modes, {}, [](const Mode& mode) { return mode.waves.lambda; });
   const double unit = std::sqrt(chain.bending_stiffness / chain.mass_per_length) / (a * a);
   NaturalModes result;
   result.frequencies.assign(rigid.size(), 0.0);
@@ -230,9 +225,9 @@ std::optional<NaturalModes> hermite_chain_modes(const HermiteChain& chain) {
     shapes.write_rigid(parity, shape.data());
     result.shapes.insert(result.shapes.end(), shape.begin(), shape.end());
   }
-  for (const std::size_t i : order) {
-    result.frequencies.push_back(unit * std::sqrt(modes[i].waves.lambda));
-    shapes.write(modes[i], shape.data());
+  for (const Mode& mode : modes) {
+    result.frequencies.push_back(unit * std::sqrt(mode.waves.lambda));
+    shapes.write(mode, shape.data());
     result.shapes.insert(result.shapes.end(), shape.begin(), shape.end());
   }
   return result;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "numerics/dense.h"
@@ -21,39 +22,32 @@ constexpr std::size_t n_points = SpectralMesh::degree;
 
 constexpr const auto& nodes = SpectralMesh::nodes;
 
-// Lagrange's polynomials of the nodes, and their derivatives, at the Gauss points.
+// Lagrange's polynomial of a node, and its derivative.
+std::pair<double, double> lagrange(std::size_t a, double x) {
+  double value = 1.0, slope = 0.0;
+  for (std::size_t b = 0; b < n_nodes; ++b) {
+    if (b == a) continue;
+    const double gap = nodes[a] - nodes[b];
+    slope = slope * (x - nodes[b]) / gap + value / gap;
+    value *= (x - nodes[b]) / gap;
+  }
+  return {value, slope};
+}
+
+// Of all nodes, at the Gauss points.
 struct Shapes {
   std::array<std::array<double, n_nodes>, n_points> value, slope;
 };
 
-Shapes make_shapes() {
-  Shapes shapes{};
+const Shapes shapes = [] {
+  Shapes at{};
   for (std::size_t q = 0; q < n_points; ++q) {
-    const double x = gauss<n_points>.points[q];
     for (std::size_t a = 0; a < n_nodes; ++a) {
-      double value = 1.0, slope = 0.0;
-      for (std::size_t b = 0; b < n_nodes; ++b) {
-        if (b == a) continue;
-        const double gap = nodes[a] - nodes[b];
-        slope = slope * (x - nodes[b]) / gap + value / gap;
-        value *= (x - nodes[b]) / gap;
-      }
-      shapes.value[q][a] = value;
-      shapes.slope[q][a] = slope;
+      std::tie(at.value[q][a], at.slope[q][a]) = lagrange(a, gauss<n_points>.points[q]);
     }
   }
-  return shapes;
-}
-
-const Shapes shapes = make_shapes();
-
-double lagrange(std::size_t a, double x) {
-  double value = 1.0;
-  for (std::size_t b = 0; b < n_nodes; ++b) {
-    if (b != a) value *= (x - nodes[b]) / (nodes[a] - nodes[b]);
-  }
-  return value;
-}
+  return at;
+}();
 
 }  // namespace
 
@@ -176,15 +170,11 @@ SparseFunctional SpectralMesh::interpolated(double x, std::size_t which) const {
   constexpr double rounding = 1e-12;
   SparseFunctional functional;
   for (std::size_t a = 0; a < n_nodes; ++a) {
-    const double value = lagrange(a, place);
+    const double value = lagrange(a, place).first;
     const std::size_t unknown = element.unknowns[2 * a + which];
     if (unknown != none && std::abs(value) > rounding) functional.terms.push_back({unknown, value});
   }
   return functional;
-}
-
-std::optional<SparseFunctional> SpectralMesh::displacement_at(double x) const {
-  return interpolated(x, 0);
 }
 
 std::optional<SparseFunctional> SpectralMesh::rotation_at(double x) const {
@@ -366,7 +356,5 @@ double SpectralMesh::highest_frequency(double bending_stiffness) const {
   }
   return std::sqrt(highest);
 }
-
-std::string SpectralMesh::description() const { return described("spectral elements"); }
 
 }  // namespace subimpact

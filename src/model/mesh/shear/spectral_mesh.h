@@ -9,11 +9,8 @@
 namespace subimpact {
 
 /// Elements of a beam whose sections shear, with polynomials of degree 4 for displacement w and
-/// rotation phi of the sections (docs/theory.md, "Spectral elements"). The struck
-/// point is a node; elements to its left have one length, those to its right another one.
-///
-/// Unknowns, from left to right: w and r phi of every node, in m, with the radius of gyration r;
-/// those that supports hold, and the rotation at mid-span under symmetry, are left out.
+/// rotation phi of the sections (docs/theory/meshes.md, "Spectral elements"). Unknowns, node by
+/// node (ElementNodes): w and r phi, in m, with the radius of gyration r.
 ///
 /// Source: A. T. Patera, J. Comput. Phys. 54 (1984) 468, for the elements; O. C. Zienkiewicz et
 /// al., Int. J. Num. Meth. Eng. 3 (1971) 275, for the reduced integration.
@@ -38,14 +35,18 @@ class SpectralMesh final : public ElementMesh {
                        std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
   /// Polynomials of degree 4 in each element.
-  std::optional<SparseFunctional> displacement_at(double x) const override;
+  std::optional<SparseFunctional> displacement_at(double x) const override {
+    return interpolated(x, 0);
+  }
   std::optional<SparseFunctional> rotation_at(double x) const override;
   std::vector<Slope> slopes() const override;
   double highest_frequency(double bending_stiffness) const override;
   NaturalModes natural_modes(double bending_stiffness) const override;
   bool has_closed_modes() const override;
   double closed_modes_work() const override;  // n^3/20, mostly a product of matrices
-  std::string description() const override;
+  std::string description() const override {
+    return described(nodes_.n_elements_whole(), "spectral elements");
+  }
 
  private:
   static constexpr std::size_t n_points = degree;  // Gauss points of an element

@@ -35,8 +35,6 @@ using Values = Eigen::Matrix<double, n_values, 1>;
 using Strains = Eigen::Matrix<double, n_own, n_values>;
 using Own = Eigen::Matrix<double, n_own, 1>;
 
-Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 struct Chain {
   std::size_t n_elements;  // of the whole beam
   double length;           // of an element, m

@@ -377,10 +377,4 @@ NaturalModes TimoshenkoMesh::natural_modes(double bending_stiffness) const {
   return modes ? std::move(*modes) : dense_natural_modes(*this, bending_stiffness);
 }
 
-std::string TimoshenkoMesh::description() const {
-  const std::size_t n_cells = sides_[0].n_cells + sides_[1].n_cells + 1;
-  return std::to_string(n_cells) + " cells with shear" +
-         (symmetric() ? ", one half by symmetry" : "");
-}
-
 }  // namespace subimpact

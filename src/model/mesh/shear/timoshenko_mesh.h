@@ -7,9 +7,7 @@
 
 namespace subimpact {
 
-/// N cells of a beam whose sections shear, second order in the cells' lengths: displacements w at
-/// the nodes of the cells, rotations phi of the sections at the faces between them (docs/theory.md,
-/// "Cells that shear").
+/// N cells of a beam whose sections shear (docs/theory/meshes.md, "Cells that shear").
 ///
 /// Unknowns, from left to right: w[0], r phi[1/2], w[1], r phi[3/2], ..., in m, with the radius of
 /// gyration r; so all unknowns of a cell have the same mass. Ends are faces:
@@ -19,9 +17,8 @@ namespace subimpact {
 ///     pinned   a rotation phi at the face, of half a cell's inertia; gamma = 2 w[0]/dx - phi
 ///     clamped  neither; gamma = 2 w[0]/dx
 ///
-/// A node lies under the strike: cells on both sides of it have lengths of their own, and the
-/// struck cell reaches half of each to its sides. In the symmetric half model (strike at mid-span,
-/// N odd, ends alike) the last unknown is the displacement of the struck node.
+/// The struck cell reaches half the length of the cells on either side to its sides. In the half
+/// model (strike at mid-span, N odd, ends alike) the last unknown is that of the struck node.
 ///
 /// Source: S. P. Timoshenko, Phil. Mag. 41 (1921) 744.
 class TimoshenkoMesh final : public BeamMesh {
@@ -50,7 +47,9 @@ class TimoshenkoMesh final : public BeamMesh {
   /// From one equation in each frequency if both ends are free and all cells alike.
   NaturalModes natural_modes(double bending_stiffness) const override;
   bool has_closed_modes() const override;
-  std::string description() const override;
+  std::string description() const override {
+    return described(sides_[0].n_cells + sides_[1].n_cells + 1, "cells with shear");
+  }
 
  private:
   // Cells of equal length on one side of the strike.
