@@ -308,7 +308,7 @@ TEST_F(ARun, OfACaseThatLeavesItsModelOpenChoosesItAndTheCaseItWritesIsThatModel
   run_in(directory, {"run", "written.toml", "--out", "again", "--body-errors=off"});
   const auto again = summary_in(directory.path / "again");
   EXPECT_TRUE(again.at("body_errors").is_null());
-  EXPECT_EQ(again.at("model_choice"), "");
+  EXPECT_EQ(again.at("model_choice"), "beam.poisson = 0.3: none is given");
   EXPECT_EQ(table_in(directory.path / "again/events.csv").at(0).at("end_s"),
             table_in(directory.path / "here/events.csv").at(0).at("end_s"));
   EXPECT_EQ(again.at("maxima"), run.at("maxima"));
