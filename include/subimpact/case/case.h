@@ -71,7 +71,7 @@ struct Case : Options {
   /// Why theory and contact law are what they are, if they were chosen (study/model.h); no key.
   std::string model_choice;
   bool theory_is_chosen = false;  ///< by the program, with the shear that matters; no key
-  /// Of "beam.poisson" and "scene.gravity" those that nobody gave: parts of body errors; no key.
+  /// Of beam.poisson and scene.gravity, the keys that the case file omits: parts of body errors.
   std::set<std::string> assumed;
   Scene scene;
   ModelOptions model;

@@ -15,7 +15,7 @@ namespace subimpact {
 /// or removed. Files of other layouts are not read.
 constexpr int summary_layout = 6;
 
-/// Writes the files of a run (docs/files.md); `report`: report_json() of it, for `subimpact
+/// Writes the files of a run (docs/files.md); `report`: its report_json(), for `subimpact
 /// report`, or empty. Numbers in CSV carry 17 significant digits, enough to read the same double
 /// back. All files appear together, with a manifest.json, or none does (see OutputDirectory).
 /// Throws OutputError.

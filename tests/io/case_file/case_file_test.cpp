@@ -38,7 +38,7 @@ TEST(CaseFileText, IsReadBackAsTheSameCase) {
   }
 }
 
-TEST(CaseFileText, HasWhatNobodyGaveInCommentsSoThatACopyAssumesItToo) {
+TEST(CaseFileText, HasAssumedValuesInCommentsSoThatACopyAssumesThemToo) {
   const auto read = [](const std::string& text) { return read_case_text(text, "copy").value; };
   for (const std::string given : {"", "[scene]\ngravity = 0\n"}) {
     Case input = read(small_case_text() + given);
