@@ -1,5 +1,7 @@
 // The contact law against what it stands for: a bed of columns, each with its own plastic memory.
 
+#include <gtest/gtest.h>
+
 #include "built_in_law.h"
 #include "paper_scene.h"
 #include "random_walk.h"
